@@ -1,7 +1,8 @@
-// The projective texture at one point: where the point falls in a projector's picture, and why it is dark if it is.
+// The projective texture at one point: where the point falls in a projector's picture, and why it is dark if
+// it is.
 //
-// (s, t, r, q) = T·x and the divide give the pinhole pixel; the lens warps it. After Segal, Korobkin et al., "Fast
-// Shadows and Lighting Effects Using Texture Mapping", SIGGRAPH 1992.
+// (s, t, r, q) = T·x and the divide give the pinhole pixel; the lens warps it. After Segal, Korobkin et al.,
+// "Fast Shadows and Lighting Effects Using Texture Mapping", SIGGRAPH 1992.
 #pragma once
 
 #include "sim/scene.h"
@@ -11,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 namespace laterna {
 
@@ -50,25 +52,42 @@ class ProjectiveLookup {
   }
 
   /// The divide, the lens, the light planes and the border. Lit where near ≤ q ≤ far and, with Border::black,
-  /// -0.5 ≤ u < W-0.5 and -0.5 ≤ v < H-0.5: the light ends at the image's edge. With Border::clamp it goes on.
-  ProjectedPoint divide(const glm::dvec3& uq_vq_q) const;
+  /// -0.5 ≤ u < W-0.5 and -0.5 ≤ v < H-0.5: the light ends at the image's edge. With Border::clamp it goes
+  /// on.
+  ProjectedPoint divide(const glm::dvec3& uq_vq_q) const {
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    const double q = uq_vq_q.z;
+    if (!(q > 0)) return {nan, nan, q, 0, Unlit::behind};
+    const double inverse_q = 1 / q;
+    ProjectedPoint point{uq_vq_q.x * inverse_q, uq_vq_q.y * inverse_q, q, pinhole_area_, Unlit::lit};
+    if (!pinhole_ && !warp(point)) return {nan, nan, q, 0, Unlit::lens};
+    const bool inside =
+        point.u_px >= -0.5 && point.u_px < width_ - 0.5 && point.v_px >= -0.5 && point.v_px < height_ - 0.5;
+    if (!inside && !clamp_) point.why = Unlit::outside;
+    if (q > far_m_) point.why = Unlit::beyond_far;
+    if (q < near_m_) point.why = Unlit::before_near;
+    return point;
+  }
 
   ProjectedPoint project(const glm::dvec3& x_object) const { return divide(homogeneous_pixel(x_object)); }
 
  private:
+  bool warp(ProjectedPoint& point) const;  // pinhole pixel to the lens's; false where the lens fails
+
   double u_[4], v_[4], q_[4];
   double near_m_, far_m_, width_, height_, pinhole_area_;
   bool clamp_, pinhole_;
   LensProjection lens_;
 };
 
-/// The texel whose box holds a pixel position, floor(u + 0.5), clamped to the picture. Its index along one axis.
+/// The texel whose box holds a pixel position, floor(u + 0.5), clamped to the picture. Its index along one
+/// axis.
 inline int nearest_texel(double u, int size) {
   return static_cast<int>(std::clamp(std::floor(u + 0.5), 0.0, double(size - 1)));
 }
 
-/// The two texels between whose centres a position lies along one axis, and the second one's share. Half a pixel
-/// from the edge and beyond, both are the edge texel.
+/// The two texels between whose centres a position lies along one axis, and the second one's share. Half a
+/// pixel from the edge and beyond, both are the edge texel.
 struct LinearTaps {
   int first, second;
   double share;  ///< of `second`, in [0, 1)

@@ -31,8 +31,8 @@ void check(const Object& object) {
   }
   const double det = glm::determinant(glm::dmat3(object.world_from_object));
   if (!std::isfinite(det) || det == 0) {
-    throw InputError(fmt::format(
-        "{}: world_from_object is singular, expected a matrix that can be inverted", object.name));
+    throw InputError(fmt::format("{}: world_from_object is singular, expected a matrix that can be inverted",
+                                 object.name));
   }
 }
 

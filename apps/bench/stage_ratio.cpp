@@ -30,7 +30,8 @@ double median(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
-// The rays of the visibility stage, made once: directions of camera rays, and whole shadow rays, tile by tile.
+// The rays of the visibility stage, made once: directions of camera rays, and whole shadow rays, tile by
+// tile.
 struct ReadyRays {
   int tiles_x = 0, tiles_y = 0;
   std::vector<RayPacket> camera, shadow;
@@ -38,8 +39,8 @@ struct ReadyRays {
 };
 
 void add_pixel(ReadyRays& ready, std::size_t tile, int lane, std::size_t p, const SurfaceMap& surface,
-               const LightMap& light, const glm::dvec3& camera, const glm::dvec3& projector,
-               const glm::dvec3& direction, const RayScene& rays) {
+               const LightMap& light, const glm::dvec3& point_world, const glm::dvec3& camera,
+               const glm::dvec3& projector, const glm::dvec3& direction, const RayScene& rays) {
   const glm::dvec3 origin = camera - rays.center_world();
   RayPacket& c = ready.camera[tile];
   c.origin_x[lane] = float(origin.x), c.origin_y[lane] = float(origin.y), c.origin_z[lane] = float(origin.z);
@@ -51,7 +52,7 @@ void add_pixel(ReadyRays& ready, std::size_t tile, int lane, std::size_t p, cons
   const auto why = Unlit(light.why.values[p]);
   if (why != Unlit::lit && why != Unlit::shadow) return;
   const TrianglePlane& plane = rays.plane(surface.object.values[p], surface.triangle.values[p]);
-  const glm::dvec3 start = surface.point_world.values[p] + plane.margin_m * plane.normal_world;
+  const glm::dvec3 start = point_world + plane.margin_m * plane.normal_world;
   const glm::dvec3 from = start - rays.center_world(), towards = projector - start;
   RayPacket& s = ready.shadow[tile];
   s.origin_x[lane] = float(from.x), s.origin_y[lane] = float(from.y), s.origin_z[lane] = float(from.z);
@@ -69,6 +70,7 @@ ReadyRays make_ready(const Scene& scene, const RayScene& rays) {
   const CameraRays directions(camera);
   const Rigid world_from_camera = inverse(camera.device_from_world);
   const glm::dvec3 projector = center_in_world(scene.projectors[0].device.device_from_world);
+  const PixelArray<glm::dvec3> points = points_world(surface, scene);
   ReadyRays ready;
   ready.tiles_x = (surface.width + 3) / 4, ready.tiles_y = (surface.height + 3) / 4;
   ready.camera.resize(std::size_t(ready.tiles_x) * ready.tiles_y);
@@ -77,8 +79,8 @@ ReadyRays make_ready(const Scene& scene, const RayScene& rays) {
     for (int x = 0; x < surface.width; ++x) {
       const glm::dvec3 d = world_from_camera.rotation * glm::dvec3(directions.direction(x, y), 1.0);
       add_pixel(ready, std::size_t(y / 4) * ready.tiles_x + x / 4, y % 4 * 4 + x % 4,
-                surface.object.index(x, y), surface, light, world_from_camera.translation, projector, d,
-                rays);
+                surface.object.index(x, y), surface, light, points(x, y), world_from_camera.translation,
+                projector, d, rays);
     }
   }
   return ready;
@@ -94,8 +96,8 @@ struct BareScene {
     for (const Object& object : source.objects) {
       RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
       const std::vector<glm::dvec3> world = world_positions(object);
-      auto* v = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0,
-                                                            RTC_FORMAT_FLOAT3, 12, world.size()));
+      auto* v = static_cast<float*>(
+          rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12, world.size()));
       for (const glm::dvec3& p : world)
         for (int i = 0; i < 3; ++i) *v++ = float(p[i] - center[i]);
       auto* t = static_cast<unsigned*>(rtcSetNewGeometryBuffer(
@@ -156,10 +158,9 @@ unsigned run_bare(const BareScene& bare, const ReadyRays& ready, const BareWay& 
   if (way.coherent) context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   std::atomic<unsigned> found = 0;
   parallel_for(ready.tiles_y, [&](std::size_t row) {
-    found += way.width == 16 ? play<16, RTCRayHit16, RTCRay16>(bare, ready, row, context, rtcIntersect16,
-                                                               rtcOccluded16)
-                             : play<8, RTCRayHit8, RTCRay8>(bare, ready, row, context, rtcIntersect8,
-                                                            rtcOccluded8);
+    found += way.width == 16
+                 ? play<16, RTCRayHit16, RTCRay16>(bare, ready, row, context, rtcIntersect16, rtcOccluded16)
+                 : play<8, RTCRayHit8, RTCRay8>(bare, ready, row, context, rtcIntersect8, rtcOccluded8);
   });
   return found;
 }
@@ -167,7 +168,8 @@ unsigned run_bare(const BareScene& bare, const ReadyRays& ready, const BareWay& 
 }  // namespace
 
 std::string describe(const BareWay& way) {
-  return fmt::format("{} wide{}{}", way.width, way.coherent ? ", coherent" : "", way.robust ? ", robust" : "");
+  return fmt::format("{} wide{}{}", way.width, way.coherent ? ", coherent" : "",
+                     way.robust ? ", robust" : "");
 }
 
 Scene bench_scene(int triangles) {
@@ -207,8 +209,8 @@ VisibilityTimes visibility_over_embree(const Scene& scene, const BareWay& way, i
     ratio.push_back((a + b) / c);
   }
   static_cast<void>(sink);
-  return {median(visibility_s), median(surface_s), median(light_s), median(bare_s), ready.count,
-          median(ratio)};
+  return {median(visibility_s), median(surface_s), median(light_s),
+          median(bare_s),       ready.count,       median(ratio)};
 }
 
 CaptureTimes time_capture(const Scene& source, bool bilinear, double noise_sigma_dn, int repeats) {
@@ -237,8 +239,8 @@ CaptureTimes time_capture(const Scene& source, bool bilinear, double noise_sigma
     build_s.push_back(a), rays_s.push_back(b), surface_s.push_back(c), light_s.push_back(d),
         replay_s.push_back(e);
   }
-  return {median(build_s), median(rays_s), median(surface_s), median(light_s), median(replay_s),
-          patterns.count};
+  return {median(build_s), median(rays_s),   median(surface_s),
+          median(light_s), median(replay_s), patterns.count};
 }
 
 }  // namespace laterna
