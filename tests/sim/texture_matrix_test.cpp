@@ -14,9 +14,7 @@ using Big = boost::multiprecision::cpp_bin_float_50;
 
 const Intrinsics four_by_two{{4, 2}, 3, 5, 1.5, 0.5};
 
-glm::dvec4 row(const glm::dmat4& m, int i) {
-  return {m[0][i], m[1][i], m[2][i], m[3][i]};
-}
+glm::dvec4 row(const glm::dmat4& m, int i) { return {m[0][i], m[1][i], m[2][i], m[3][i]}; }
 
 void expect_row(const glm::dmat4& m, int i, const glm::dvec4& expected) {
   for (int j = 0; j < 4; ++j) EXPECT_DOUBLE_EQ(row(m, i)[j], expected[j]) << "row " << i << " column " << j;
@@ -163,15 +161,11 @@ double worst_error_over_frustum(double distance) {
 }
 
 // The bound: 1e-9 px at 8K; 8000 px × eps × about 10 operations is 2e-11.
-TEST(TextureMatrix, AgreesWith50DigitsOverTheFrustum) {
-  EXPECT_LE(worst_error_over_frustum(0), 1e-9);
-}
+TEST(TextureMatrix, AgreesWith50DigitsOverTheFrustum) { EXPECT_LE(worst_error_over_frustum(0), 1e-9); }
 
 // The bound: 1e-5 px; translations of 1e6 cancel with 1e6·eps = 2e-10 m, times 13000 px over 3 m:
 // 1e-6 px.
-TEST(TextureMatrix, AgreesWith50DigitsAMillionUnitsAway) {
-  EXPECT_LE(worst_error_over_frustum(1e6), 1e-5);
-}
+TEST(TextureMatrix, AgreesWith50DigitsAMillionUnitsAway) { EXPECT_LE(worst_error_over_frustum(1e6), 1e-5); }
 
 TEST(TextureMatrix, DecomposesToItsParts) {
   auto random = testing::generator();
