@@ -9,9 +9,7 @@ namespace {
 
 using testing::input_error;
 
-Mesh triangle() {
-  return {{{0, 0, 0}, {2, 0, 0}, {0, 3, 1}}, {{0, 1, 2}}, {}};
-}
+Mesh triangle() { return {{{0, 0, 0}, {2, 0, 0}, {0, 3, 1}}, {{0, 1, 2}}, {}}; }
 
 std::string refusal(const Mesh& mesh) {
   return input_error([&] { validate(mesh, "house.ply"); });
