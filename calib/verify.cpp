@@ -17,11 +17,13 @@ namespace {
 constexpr std::size_t chunk = 4096;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-double percentile(const std::vector<double>& sorted, double share) {
-  const double at = share * double(sorted.size() - 1);
-  const std::size_t i = std::min(std::size_t(at), sorted.size() - 1);
-  const std::size_t next = std::min(i + 1, sorted.size() - 1);
-  return sorted[i] + (at - double(i)) * (sorted[next] - sorted[i]);
+// By linear interpolation between order statistics; reorders `values`.
+double percentile(std::vector<double>& values, double share) {
+  const double at = share * double(values.size() - 1);
+  const auto low = values.begin() + std::ptrdiff_t(at);
+  std::nth_element(values.begin(), low, values.end());
+  const double next = low + 1 == values.end() ? *low : *std::min_element(low + 1, values.end());
+  return *low + (at - std::floor(at)) * (next - *low);
 }
 
 double between(double first, double last, int i, int intervals) {
@@ -89,17 +91,19 @@ ErrorSummary summarise(const Device& truth, const Device& estimate, const std::v
 }  // namespace
 
 std::vector<double> volume_depths(std::vector<double> lit) {
-  std::sort(lit.begin(), lit.end());
+  const double first = percentile(lit, 0.05), last = percentile(lit, 0.95);
   std::vector<double> depths;
-  for (int i = 0; i < 12; ++i) depths.push_back(between(percentile(lit, 0.05), percentile(lit, 0.95), i, 11));
+  for (int i = 0; i < 12; ++i) depths.push_back(between(first, last, i, 11));
   return depths;
 }
 
 std::vector<double> extrapolation_depths(std::vector<double> lit) {
-  std::sort(lit.begin(), lit.end());
+  const auto [nearest, farthest] = std::minmax_element(lit.begin(), lit.end());
+  const double first = 0.8 * *nearest, last = 1.25 * *farthest;
+  const double low = percentile(lit, 0.05), high = percentile(lit, 0.95);
   std::vector<double> depths;
-  for (int i = 0; i < 6; ++i) depths.push_back(between(0.8 * lit.front(), percentile(lit, 0.05), i, 6));
-  for (int i = 1; i <= 6; ++i) depths.push_back(between(percentile(lit, 0.95), 1.25 * lit.back(), i, 6));
+  for (int i = 0; i < 6; ++i) depths.push_back(between(first, low, i, 6));
+  for (int i = 1; i <= 6; ++i) depths.push_back(between(high, last, i, 6));
   return depths;
 }
 

@@ -24,7 +24,7 @@ struct Verification {
   ErrorSummary extrapolation;  ///< whole projector image × 0.8·nearest..5 % and 95 %..1.25·farthest
 };
 
-/// Depths, in metres along the axis, of a sorted or unsorted list of lit depths: 12 evenly from the 5th to the 95th
+/// Depths, in metres along the axis, of a list of lit depths (not empty): 12 evenly from the 5th to the 95th
 /// percentile; 6 evenly from 0.8·nearest to the 5th percentile (exclusive) and 6 from the 95th (exclusive) to
 /// 1.25·farthest. Percentiles by linear interpolation between order statistics.
 std::vector<double> volume_depths(std::vector<double> lit_depths_m);
