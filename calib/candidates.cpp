@@ -14,7 +14,8 @@ namespace {
 
 constexpr double thin_relief = 1e-2;       // third over first spread
 constexpr double good_residual_scale = 3;  // above it, other starts are tried too
-constexpr std::size_t trial_points = 1000;
+constexpr std::size_t trial_points = 1000;    // for nominal starts
+constexpr std::size_t enough_points = 40000;  // to choose among starts
 
 struct Context {
   const Correspondences& correspondences;
@@ -28,8 +29,7 @@ struct Context {
 // Evenly spread points of a table; clusters are of no interest to it.
 PointTable thinned(const PointTable& points, std::size_t wanted) {
   PointTable t;
-  const std::size_t step = std::max<std::size_t>(1, points.size() / wanted);
-  for (std::size_t i = 0; i < points.size(); i += step) {
+  for (const std::size_t i : evenly_spread(points.size(), wanted)) {
     t.x.push_back(points.x[i]), t.y.push_back(points.y[i]), t.z.push_back(points.z[i]);
     t.u.push_back(points.u[i]), t.v.push_back(points.v[i]);
     t.inverse_sigma.push_back(points.inverse_sigma[i]);
@@ -112,6 +112,17 @@ BestRefinement best_refinement(const Correspondences& correspondences, const Poi
                                const WorldNormalisation& normalisation, glm::ivec2 size,
                                const LensGradient& lens, const GeometryReport& geometry,
                                const SolveOptions& options) {
+  if (points.size() > enough_points) {
+    const Correspondences few =
+        subset(correspondences, evenly_spread(correspondences.world_points.size(), enough_points));
+    BestRefinement best = best_refinement(few, point_table(few, normalisation), normalisation, size, lens,
+                                          geometry, options);
+    if (!best.refinement) return best;
+    best.refinement = refine(points, lens, best.refinement->state,
+                             {options.loss, options.max_iterations, double(std::max(size.x, size.y))});
+    if (!best.refinement) best.refusal = "some points lie behind the projector that fits the others";
+    return best;
+  }
   const Context c{correspondences, points, normalisation, size, lens,
                   {options.loss, options.max_iterations, double(std::max(size.x, size.y))}};
   std::optional<Refinement> best;

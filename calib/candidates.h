@@ -20,7 +20,7 @@ struct BestRefinement {
 /// median of s being 2·ln 2 for Gaussian noise. 1 is noise alone.
 double residual_scale(std::vector<double> squared_residuals, int parameter_count, const RobustLoss& loss);
 
-/// Refines from every start that solve() describes. `points` are the correspondences in normalised coordinates.
+/// Refines from every start that solve() describes; of more than 40,000 points, that many choose the start. `points` are the correspondences in normalised coordinates.
 BestRefinement best_refinement(const Correspondences& correspondences, const PointTable& points,
                                const WorldNormalisation& normalisation, glm::ivec2 size,
                                const LensGradient& lens, const GeometryReport& geometry,

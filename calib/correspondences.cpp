@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace laterna {
@@ -42,6 +43,21 @@ Correspondences subset(const Correspondences& c, const std::vector<std::size_t>&
     if (!c.cluster.empty()) chosen.cluster.push_back(c.cluster[i]);
   }
   return chosen;
+}
+
+std::vector<std::size_t> evenly_spread(std::size_t count, std::size_t wanted) {
+  std::vector<std::size_t> indices;
+  if (count <= wanted) {
+    for (std::size_t i = 0; i < count; ++i) indices.push_back(i);
+    return indices;
+  }
+  constexpr double golden = 0.6180339887498949;
+  const double step = double(count) / double(wanted);
+  for (std::size_t k = 0; k < wanted; ++k) {
+    const double jitter = golden * double(k) - std::floor(golden * double(k));
+    indices.push_back(std::min(count - 1, std::size_t((double(k) + jitter) * step)));
+  }
+  return indices;
 }
 
 }  // namespace laterna

@@ -25,4 +25,8 @@ void validate(const Correspondences& correspondences);
 /// The correspondences with the given indices, in that order.
 Correspondences subset(const Correspondences& correspondences, const std::vector<std::size_t>& indices);
 
+/// `wanted` of the indices 0..count-1 (all of them where there are fewer), evenly spread and jittered by the golden
+/// ratio, so that no row or column of a raster is met again and again.
+std::vector<std::size_t> evenly_spread(std::size_t count, std::size_t wanted);
+
 }  // namespace laterna

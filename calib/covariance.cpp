@@ -35,6 +35,17 @@ bool leave_out(const Eigen::MatrixXd& a, const Eigen::VectorXd& r, Eigen::Vector
   return true;
 }
 
+// What a robust loss adds to H = I in whitened parameters: Σ 2ρ''·(Jᵀr)(Jᵀr)ᵀ, where the rows hold √ρ'.
+void add_curvature(const Eigen::MatrixXd& a, const Eigen::VectorXd& r, const RobustLoss& loss, const double* s,
+                   Eigen::MatrixXd& curvature) {
+  const Eigen::Index n = a.rows() / 2;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const Eigen::VectorXd gradient = a.row(i).transpose() * r[i] + a.row(n + i).transpose() * r[n + i];
+    const double weight = loss.weight(s[i]);
+    curvature.noalias() += 2 * loss.weight_slope(s[i]) / (weight * weight) * gradient * gradient.transpose();
+  }
+}
+
 }  // namespace
 
 std::optional<std::vector<double>> clustered_covariance(const PointTable& points, const LensGradient& lens,
@@ -52,7 +63,11 @@ std::optional<std::vector<double>> clustered_covariance(const PointTable& points
   }
   const std::size_t batches = batch_begin.size() - 1;
   std::vector<Eigen::MatrixXd> sums(batches, Eigen::MatrixXd::Zero(p, p));
+  std::vector<Eigen::MatrixXd> curvatures(batches, Eigen::MatrixXd::Zero(p, p));
   std::vector<char> failed(batches, 0);
+  const bool robust = loss.kind != RobustLoss::Kind::none;
+  const auto s = squared_residuals(points, lens, state);
+  if (!s) return std::nullopt;
   parallel_for(batches, [&](std::size_t b) {
     Eigen::MatrixXd rows, a;
     Eigen::VectorXd d;
@@ -64,12 +79,19 @@ std::optional<std::vector<double>> clustered_covariance(const PointTable& points
       failed[b] |= !leave_out(a, rows.col(p), d);
       if (failed[b]) return;
       sums[b].noalias() += d * d.transpose();
+      if (robust) add_curvature(a, rows.col(p), loss, &(*s)[begin], curvatures[b]);
     }
   });
-  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(p, p);
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(p, p), hessian = Eigen::MatrixXd::Identity(p, p);
   for (std::size_t b = 0; b < batches; ++b) {
     if (failed[b]) return std::nullopt;
     sum += sums[b];
+    hessian += curvatures[b];
+  }
+  if (robust) {
+    const Eigen::LDLT<Eigen::MatrixXd> ldlt(hessian);
+    if (!(ldlt.vectorD().minCoeff() > 0.01)) return std::nullopt;
+    sum = ldlt.solve(ldlt.solve(sum).transpose()).eval();
   }
   sum *= double(clusters - 1) / double(clusters);
   const Eigen::MatrixXd half = r.triangularView<Eigen::Upper>().solve(sum);

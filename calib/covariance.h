@@ -13,8 +13,8 @@ namespace laterna {
 ///   C = (G-1)/G · Σ_g d_g·d_gᵀ,  d_g = (H - H_g)⁻¹·g_g,  H = JᵀJ, H_g and g_g = J_gᵀ·r_g of cluster g alone.
 /// Right whatever the correlation inside a cluster, as long as clusters are many (3·p or more) and independent.
 /// Row-major p×p, tangent order, the points' frame. `factor`: row_factor() at `state`, of full rank. None where a
-/// cluster cannot be left out: the others do not determine the projector. With a robust loss the rows are
-/// weighted by ρ', as in the last step of the solve.
+/// cluster cannot be left out: the others do not determine the projector. With a robust loss H is
+/// the true second derivative, ρ'·JᵀJ + 2ρ''·(Jᵀr)(Jᵀr)ᵀ; for H_g its first term stands.
 std::optional<std::vector<double>> clustered_covariance(const PointTable& points, const LensGradient& lens,
                                                         const ProjectorState& state, const RobustLoss& loss,
                                                         const std::vector<double>& factor);

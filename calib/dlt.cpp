@@ -182,15 +182,15 @@ struct Score {
   double inlier_share = 0;
 };
 
-Score score(const Normalised& n, const PixelMatrix& m, double squared_threshold, std::size_t step) {
+Score score(const Normalised& n, const PixelMatrix& m, double squared_threshold,
+            const std::vector<std::size_t>& judges) {
   Score total{0, 0};
-  std::size_t seen = 0;
-  for (std::size_t i = 0; i < n.x.size(); i += step, ++seen) {
+  for (const std::size_t i : judges) {
     const double s = squared_residual(n, m, i);
     total.loss += std::min(s, squared_threshold);
     total.inlier_share += s < squared_threshold;
   }
-  total.inlier_share /= double(seen);
+  total.inlier_share /= double(judges.size());
   return total;
 }
 
@@ -198,7 +198,7 @@ Score score(const Normalised& n, const PixelMatrix& m, double squared_threshold,
 PixelMatrix best_sample(const Normalised& n, const RansacOptions& options) {
   constexpr int batch = 64;
   const double squared = options.threshold_sigmas * options.threshold_sigmas;
-  const std::size_t step = std::max<std::size_t>(1, n.x.size() / 2000);
+  const std::vector<std::size_t> judges = evenly_spread(n.x.size(), 2000);
   PixelMatrix best = PixelMatrix::Zero();
   Score best_score;
   double needed = options.max_trials;
@@ -208,7 +208,7 @@ PixelMatrix best_sample(const Normalised& n, const RansacOptions& options) {
     parallel_for(batch, [&](std::size_t k) {
       const auto sample = sample_of(options.seed, std::uint32_t(trial + k), n.x.size());
       candidates[k] = minimal_solution(n, sample);
-      scores[k] = score(n, candidates[k], squared, step);
+      scores[k] = score(n, candidates[k], squared, judges);
     });
     for (int k = 0; k < batch; ++k) {
       if (!(scores[k].loss < best_score.loss)) continue;

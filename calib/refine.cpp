@@ -114,6 +114,7 @@ ceres::Solver::Options solver_options(int max_iterations) {
   o.gradient_tolerance = 1e-16;
   o.parameter_tolerance = 1e-14;
   o.max_num_consecutive_invalid_steps = 50;
+  o.initial_trust_region_radius = 1e10;  // the starts are good: nearly Gauss-Newton from the first step
   o.num_threads = 1;  // the block has its own
   o.logging_type = ceres::SILENT;
   return o;

@@ -25,6 +25,13 @@ struct RobustLoss {
     if (kind == Kind::huber && s > a2) return std::sqrt(a2 / s);
     return 1;
   }
+  /// d²ρ/ds², at most 0.
+  double weight_slope(double s) const {
+    const double a2 = scale_sigmas * scale_sigmas;
+    if (kind == Kind::cauchy) return -1 / (a2 * (1 + s / a2) * (1 + s / a2));
+    if (kind == Kind::huber && s > a2) return -scale_sigmas / (2 * s * std::sqrt(s));
+    return 0;
+  }
 };
 
 }  // namespace laterna

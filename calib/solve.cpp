@@ -110,7 +110,10 @@ std::vector<std::string> weaknesses(const SolveResult& r, const Correspondences&
                             "mesh or outliers",
                             r.residual_scale));
   }
-  if (r.outlier_share > 0.5) w.push_back(fmt::format("{:.0f} % of the correspondences are outliers", 100 * r.outlier_share));
+  const bool robust = options.loss.kind != RobustLoss::Kind::none;
+  const double bearable = options.loss.kind == RobustLoss::Kind::huber ? 0.15 : 0.5;
+  if (robust && r.outlier_share > bearable) w.push_back(fmt::format("{:.0f} % of the correspondences are outliers, more than this loss bears",
+                            100 * r.outlier_share));
   if (!r.clusters_suffice && !c.cluster.empty()) {
     w.push_back(fmt::format("only {} blocks of the camera image hold correspondences and {} are needed: how far "
                             "errors are correlated cannot be told",
@@ -146,7 +149,9 @@ SolveResult solve(const Correspondences& c, glm::ivec2 size, const SolveOptions&
   result.scaled_singular_values = spectrum.singular_values;
   result.smallest_gap = spectrum.singular_values.back() / spectrum.singular_values.front();
   result.weakest_direction = direction_in_words(spectrum.weakest, result.parameter_names);
-  if (!fit.converged) return refused(std::move(result), "the solver did not converge: " + fit.termination);
+  if (!fit.converged) return refused(std::move(result), fmt::format("the solver did not converge ({}): {} (relief {:.2g} % of the throw)",
+                                                  fit.termination, result.weakest_direction,
+                                                  100 * result.relief_over_throw));
   const auto independent =
       result.smallest_gap > rank_deficient
           ? ceres_covariance(points, lens, fit.state, {options.loss, 0, double(std::max(size.x, size.y))})

@@ -64,8 +64,8 @@ struct SolveResult {
 /// badly; the lowest cost wins.
 /// Refused: too few, identical, collinear or coplanar points, pixels on a line, a mirrored mapping, points behind the
 /// projector, a rank-deficient Jacobian, no convergence. Weak: predicted volume error above the tolerance, residuals
-/// over twice what the sigmas explain, too few clusters, sigma of fx or fy above a tenth of it, most points
-/// outliers, or an estimate that cannot map its own volume. The verdict never looks at a truth.
+/// over twice what the sigmas explain, too few clusters, sigma of fx or fy above a tenth of it, more outliers than the
+/// loss bears (Huber 15 %, Cauchy 50 %), or an estimate that cannot map its own volume. The verdict never looks at a truth.
 /// Throws InputError where correspondences, size, lens model or start are malformed.
 SolveResult solve(const Correspondences& correspondences, glm::ivec2 projector_size,
                   const SolveOptions& options = {});

@@ -20,8 +20,7 @@ Rigid rigid_of(const cv::Mat& rotation_vector, const cv::Mat& translation) {
 std::vector<ProjectorState> nominal_starts(const PointTable& points, glm::ivec2 size, int lens_parameters) {
   std::vector<cv::Point3d> x;
   std::vector<cv::Point2d> p;
-  const std::size_t step = std::max<std::size_t>(1, points.size() / 500);
-  for (std::size_t i = 0; i < points.size(); i += step) {
+  for (const std::size_t i : evenly_spread(points.size(), 500)) {
     x.emplace_back(points.x[i], points.y[i], points.z[i]);
     p.emplace_back(points.u[i], points.v[i]);
   }
