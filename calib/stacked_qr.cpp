@@ -51,9 +51,7 @@ Span span_of(RowSupport support, std::size_t half, std::size_t rows) {
   return {0, rows};
 }
 
-bool disjoint(RowSupport a, RowSupport b) {
-  return a != b && a != RowSupport::both && b != RowSupport::both;
-}
+bool disjoint(RowSupport a, RowSupport b) { return a != b && a != RowSupport::both && b != RowSupport::both; }
 
 // [R; block] → R: reflection k has the vector (v0 at R's row k; column k of the block) and touches nothing
 // else.
@@ -80,8 +78,7 @@ void fold(std::vector<double>& r, double* block, std::size_t rows, std::size_t s
     }
     for (int first = 0; first < n; first += 4) {
       double* group[4];
-      for (int j = 0; j < 4; ++j)
-        group[j] = block + others[std::min(first + j, n - 1)] * stride + span.begin;
+      for (int j = 0; j < 4; ++j) group[j] = block + others[std::min(first + j, n - 1)] * stride + span.begin;
       dot4(v, group, count, dots);
       for (int j = 0; j < 4; ++j) {
         if (first + j >= n) {

@@ -11,8 +11,8 @@ namespace laterna {
 /// Directions in the camera's frame, scaled to z = 1, so that a ray's parameter is the axial depth in metres.
 class CameraRays {
  public:
-  /// Unprojects all W×H pixel centres; each starts from its left neighbour, rows stand alone. A pinhole needs no
-  /// table.
+  /// Unprojects all W×H pixel centres; each starts from its left neighbour, rows stand alone. A pinhole needs
+  /// no table.
   explicit CameraRays(const Device& camera);
 
   int width() const { return width_; }

@@ -15,8 +15,7 @@ Exposure make_exposure(const Sensor& sensor, double saturation_cd_per_m2, const 
   if (sensor.bit_depth < 8 || sensor.bit_depth > 16)
     throw InputError(fmt::format("sensor: bit_depth is {}, expected 8 to 16", sensor.bit_depth));
   if (!(sensor.noise_sigma_dn >= 0 && std::isfinite(sensor.noise_sigma_dn)))
-    throw InputError(
-        fmt::format("sensor: noise_sigma_dn is {}, expected 0 or more", sensor.noise_sigma_dn));
+    throw InputError(fmt::format("sensor: noise_sigma_dn is {}, expected 0 or more", sensor.noise_sigma_dn));
   if (!(saturation > 0 && std::isfinite(saturation)))
     throw InputError(
         fmt::format("sensor: saturation_cd_per_m2 is {}, expected a positive number", saturation));
@@ -31,8 +30,7 @@ double automatic_saturation_cd_per_m2(const SurfaceMap& surface, std::span<const
   for (const LightMap& light : lights) {
     for (std::size_t p = 0; p < pixels; ++p) {
       if (light.lit(p))
-        seen.push_back(
-            luminance_cd_per_m2(surface.albedo.values[p], light.white_lx.values[p], ambient_lx));
+        seen.push_back(luminance_cd_per_m2(surface.albedo.values[p], light.white_lx.values[p], ambient_lx));
     }
   }
   const bool dark = seen.empty();

@@ -9,8 +9,7 @@ namespace laterna {
 
 void normal_deviates(const NoiseKey& key, std::uint32_t pixel, std::uint32_t group, float deviates[4]) {
   const r123::Philox4x32::ctr_type counter{{pixel, group, key.camera, key.projector}};
-  const r123::Philox4x32::key_type philox_key{
-      {std::uint32_t(key.seed), std::uint32_t(key.seed >> 32)}};
+  const r123::Philox4x32::key_type philox_key{{std::uint32_t(key.seed), std::uint32_t(key.seed >> 32)}};
   const r123::Philox4x32::ctr_type bits = r123::Philox4x32()(counter, philox_key);
   for (int i = 0; i < 4; i += 2) {
     const float uniform = (float(bits[i] >> 8) + 0.5f) * 0x1p-24f;  // in (0, 1)

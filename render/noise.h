@@ -12,8 +12,8 @@ struct NoiseKey {
 };
 
 /// Four independent standard normal deviates for pictures 4·group to 4·group + 3 at one pixel: Philox4x32-10
-/// (Salmon et al., "Parallel Random Numbers: As Easy as 1, 2, 3", SC 2011), counter (pixel, group, camera, projector)
-/// under the key `seed`, then Box and Muller's transform.
+/// (Salmon et al., "Parallel Random Numbers: As Easy as 1, 2, 3", SC 2011), counter (pixel, group, camera,
+/// projector) under the key `seed`, then Box and Muller's transform.
 void normal_deviates(const NoiseKey& key, std::uint32_t pixel, std::uint32_t group, float deviates[4]);
 
 }  // namespace laterna

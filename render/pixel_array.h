@@ -1,4 +1,5 @@
-// Per-pixel results, left uninitialised so that the thread that computes a row is the first to touch its memory.
+// Per-pixel results, left uninitialised so that the thread that computes a row is the first to touch its
+// memory.
 #pragma once
 
 #include <sys/mman.h>

@@ -37,8 +37,8 @@ ProjectedPoint ProjectiveLookup::divide(const glm::dvec3& h) const {
     point.u_px = warped->x, point.v_px = warped->y;
     point.pixels_per_unit_area = lens_.pixels_per_unit_area(x_device);
   }
-  const bool inside = point.u_px >= -0.5 && point.u_px < width_ - 0.5 && point.v_px >= -0.5 &&
-                      point.v_px < height_ - 0.5;
+  const bool inside =
+      point.u_px >= -0.5 && point.u_px < width_ - 0.5 && point.v_px >= -0.5 && point.v_px < height_ - 0.5;
   if (h.z < near_m_) {
     point.why = Unlit::before_near;
   } else if (h.z > far_m_) {

@@ -1,7 +1,8 @@
-// The projective texture at one point: where the point falls in a projector's picture, and why it is dark if it is.
+// The projective texture at one point: where the point falls in a projector's picture, and why it is dark if
+// it is.
 //
-// (s, t, r, q) = T·x and the divide give the pinhole pixel; the lens warps it. After Segal, Korobkin et al., "Fast
-// Shadows and Lighting Effects Using Texture Mapping", SIGGRAPH 1992.
+// (s, t, r, q) = T·x and the divide give the pinhole pixel; the lens warps it. After Segal, Korobkin et al.,
+// "Fast Shadows and Lighting Effects Using Texture Mapping", SIGGRAPH 1992.
 #pragma once
 
 #include "sim/scene.h"
@@ -50,7 +51,8 @@ class ProjectiveLookup {
   }
 
   /// The divide, the lens, the light planes and the border. Lit where near ≤ q ≤ far and, with Border::black,
-  /// -0.5 ≤ u < W-0.5 and -0.5 ≤ v < H-0.5: the light ends at the image's edge. With Border::clamp it goes on.
+  /// -0.5 ≤ u < W-0.5 and -0.5 ≤ v < H-0.5: the light ends at the image's edge. With Border::clamp it goes
+  /// on.
   ProjectedPoint divide(const glm::dvec3& uq_vq_q) const;
 
   ProjectedPoint project(const glm::dvec3& x_object) const { return divide(homogeneous_pixel(x_object)); }
@@ -62,13 +64,14 @@ class ProjectiveLookup {
   LensProjection lens_;
 };
 
-/// The texel whose box holds a pixel position, floor(u + 0.5), clamped to the picture. Its index along one axis.
+/// The texel whose box holds a pixel position, floor(u + 0.5), clamped to the picture. Its index along one
+/// axis.
 inline int nearest_texel(double u, int size) {
   return static_cast<int>(std::clamp(std::floor(u + 0.5), 0.0, double(size - 1)));
 }
 
-/// The two texels between whose centres a position lies along one axis, and the second one's share. Half a pixel
-/// from the edge and beyond, both are the edge texel.
+/// The two texels between whose centres a position lies along one axis, and the second one's share. Half a
+/// pixel from the edge and beyond, both are the edge texel.
 struct LinearTaps {
   int first, second;
   double share;  ///< of `second`, in [0, 1)

@@ -12,14 +12,14 @@
 
 namespace laterna {
 
-/// 16 rays travel together: the pixels of a 4×4 tile, aligned to the image grid, row by row. Where the machine has
-/// only 8 lanes, the tile's upper and lower halves travel one after the other.
+/// 16 rays travel together: the pixels of a 4×4 tile, aligned to the image grid, row by row. Where the
+/// machine has only 8 lanes, the tile's upper and lower halves travel one after the other.
 inline constexpr int tile_edge = 4;
 inline constexpr int packet_size = tile_edge * tile_edge;
 inline constexpr std::uint32_t no_hit = 0xffffffffu;
 
-/// x(t) = origin + t·direction, in world axes, relative to the scene's centre. Lanes with valid = 0 are left out;
-/// others hold -1.
+/// x(t) = origin + t·direction, in world axes, relative to the scene's centre. Lanes with valid = 0 are left
+/// out; others hold -1.
 struct alignas(64) RayPacket {
   float origin_x[packet_size], origin_y[packet_size], origin_z[packet_size];
   float direction_x[packet_size], direction_y[packet_size], direction_z[packet_size];
@@ -35,20 +35,21 @@ struct alignas(64) HitPacket {
 };
 
 /// Counted in half-steps of single precision (2⁻²⁴ relative), how far above the surface a shadow ray starts.
-/// Vertices and ray origin are each rounded by one at most in each coordinate (√3 each in space); the rest is for
-/// Embree's own rounding, found by the acne test up to 85° incidence.
+/// Vertices and ray origin are each rounded by one at most in each coordinate (√3 each in space); the rest is
+/// for Embree's own rounding, found by the acne test up to 85° incidence.
 inline constexpr double shadow_margin_factor = 16;
 
-/// A scene ready for rays. Geometry goes to Embree in single precision relative to the scene's centre (middle of the
-/// bounding box), so that a scene far from the origin keeps its precision.
+/// A scene ready for rays. Geometry goes to Embree in single precision relative to the scene's centre (middle
+/// of the bounding box), so that a scene far from the origin keeps its precision.
 ///
-/// A shadow ray starts margin_m above its triangle, along the normal on the lit side, and ends as far before the
-/// projector: margin_m = 16·2⁻²⁴·(largest coordinate of the triangle relative to the scene's centre), 1 µm per metre.
-/// An occluder closer than 2·margin_m to the surface may be missed; one farther than that throws its shadow.
+/// A shadow ray starts margin_m above its triangle, along the normal on the lit side, and ends as far before
+/// the projector: margin_m = 16·2⁻²⁴·(largest coordinate of the triangle relative to the scene's centre), 1
+/// µm per metre. An occluder closer than 2·margin_m to the surface may be missed; one farther than that
+/// throws its shadow.
 class RayScene {
  public:
-  /// Throws InputError as make_planes() does, and std::runtime_error with Embree's message where Embree fails. The
-  /// scene must outlive this object only during the call.
+  /// Throws InputError as make_planes() does, and std::runtime_error with Embree's message where Embree
+  /// fails. The scene must outlive this object only during the call.
   explicit RayScene(const Scene& scene);
   ~RayScene();
   RayScene(RayScene&&) noexcept;

@@ -17,8 +17,8 @@ constexpr int block = 64;  // pixels of a row that are played together: one cach
 struct Block {
   float dark[block], gain[block];
   int pixels;
-  std::size_t first;           // index of the first pixel
-  std::vector<float> noise;    // count × block; empty without noise
+  std::size_t first;         // index of the first pixel
+  std::vector<float> noise;  // count × block; empty without noise
 };
 
 struct Play {

@@ -36,8 +36,8 @@ View make_view(const RayScene& rays, const Scene& scene, const Device& camera) {
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     const Object& object = scene.objects[i];
     const ObjectPlanes& planes = rays.objects()[i];
-    const glm::dvec3 camera_object = planes.object_from_world_linear *
-                                     (view.camera_world - glm::dvec3(object.world_from_object[3]));
+    const glm::dvec3 camera_object =
+        planes.object_from_world_linear * (view.camera_world - glm::dvec3(object.world_from_object[3]));
     const bool textured = object.albedo_map && !object.mesh.texture_coordinates.empty();
     view.objects.push_back({planes.object_from_world_linear * view.world_from_device,
                             camera_object - planes.center_object, camera_object, float(object.albedo),
@@ -47,16 +47,7 @@ View make_view(const RayScene& rays, const Scene& scene, const Device& camera) {
 }
 
 SurfaceMap make_map(int w, int h) {
-  return {w,
-          h,
-          {w, h},
-          {w, h},
-          {w, h},
-          {w, h},
-          {w, h},
-          {w, h},
-          {w, h},
-          {w, h}};
+  return {w, h, {w, h}, {w, h}, {w, h}, {w, h}, {w, h}, {w, h}, {w, h}, {w, h}};
 }
 
 // One tile of a camera's image while it is traced.

@@ -10,26 +10,26 @@
 
 namespace laterna {
 
-/// One entry per camera pixel. Where nothing is hit, object is no_hit, albedo and normal are 0, and points and depth
-/// are NaN.
+/// One entry per camera pixel. Where nothing is hit, object is no_hit, albedo and normal are 0, and points
+/// and depth are NaN.
 struct SurfaceMap {
   int width = 0, height = 0;
-  PixelArray<std::uint32_t> object;      ///< index into Scene::objects, or no_hit
-  PixelArray<std::uint32_t> triangle;    ///< index into that object's triangles, or no_hit
-  PixelArray<glm::dvec3> point_world;    ///< metres
-  PixelArray<glm::dvec3> point_object;   ///< the same in the object's frame
-  PixelArray<glm::dvec3> normal_world;   ///< unit, of the flat triangle, towards its front side
-  PixelArray<double> depth_m;            ///< along the camera's optical axis
-  PixelArray<float> albedo;              ///< with the albedo map; 0 where the back side is seen
-  PixelArray<std::uint8_t> seen_front;   ///< 1 where the camera sees the front side, else 0
+  PixelArray<std::uint32_t> object;     ///< index into Scene::objects, or no_hit
+  PixelArray<std::uint32_t> triangle;   ///< index into that object's triangles, or no_hit
+  PixelArray<glm::dvec3> point_world;   ///< metres
+  PixelArray<glm::dvec3> point_object;  ///< the same in the object's frame
+  PixelArray<glm::dvec3> normal_world;  ///< unit, of the flat triangle, towards its front side
+  PixelArray<double> depth_m;           ///< along the camera's optical axis
+  PixelArray<float> albedo;             ///< with the albedo map; 0 where the back side is seen
+  PixelArray<std::uint8_t> seen_front;  ///< 1 where the camera sees the front side, else 0
 
   bool hit(std::size_t i) const { return object.values[i] != no_hit; }
 };
 
-/// Traces one ray per pixel, through its centre. Embree names the triangle; the point is where the ray, in double,
-/// meets that triangle's plane. A ray that in double passes the triangle's edge by a rounding error still takes the
-/// plane; where plane and ray are so nearly parallel that this would move the point by more than a thousandth of the
-/// depth, Embree's own depth stands. `scene` is the one that `rays` was made from.
+/// Traces one ray per pixel, through its centre. Embree names the triangle; the point is where the ray, in
+/// double, meets that triangle's plane. A ray that in double passes the triangle's edge by a rounding error
+/// still takes the plane; where plane and ray are so nearly parallel that this would move the point by more
+/// than a thousandth of the depth, Embree's own depth stands. `scene` is the one that `rays` was made from.
 SurfaceMap trace_surface(const RayScene& rays, const Scene& scene, const Camera& camera);
 
 /// The same with the camera's rays at hand.

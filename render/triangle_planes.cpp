@@ -12,9 +12,7 @@ namespace laterna {
 
 namespace {
 
-double largest(const glm::dvec3& v) {
-  return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-}
+double largest(const glm::dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
 void check(const Object& object) {
   const std::size_t count = object.mesh.positions.size();
@@ -31,8 +29,8 @@ void check(const Object& object) {
   }
   const double det = glm::determinant(glm::dmat3(object.world_from_object));
   if (!std::isfinite(det) || det == 0) {
-    throw InputError(fmt::format(
-        "{}: world_from_object is singular, expected a matrix that can be inverted", object.name));
+    throw InputError(fmt::format("{}: world_from_object is singular, expected a matrix that can be inverted",
+                                 object.name));
   }
 }
 

@@ -13,9 +13,9 @@ namespace laterna {
 struct TrianglePlane {
   glm::dvec3 normal_object;  ///< unit, towards the front side, in the object's frame
   double distance;           ///< normal_object·(x - center_object) for the points x of the plane
-  glm::dvec3 normal_world;   ///< unit, towards the front side: the front side moves with the object, also when
-                             ///< world_from_object mirrors it
-  double margin_m;           ///< how far a shadow ray starts above it; see RayScene
+  glm::dvec3 normal_world;  ///< unit, towards the front side: the front side moves with the object, also when
+                            ///< world_from_object mirrors it
+  double margin_m;          ///< how far a shadow ray starts above it; see RayScene
 };
 
 /// An object ready for rays.
@@ -26,10 +26,10 @@ struct ObjectPlanes {
   std::vector<TrianglePlane> planes;
 };
 
-/// `scene_center_world` and `margin_factor`: margin_m is margin_factor·2⁻²⁴ times the largest coordinate of the
-/// triangle's vertices relative to the scene's centre, that is, margin_factor half-steps of single precision.
-/// Throws InputError, naming the object, where a coordinate is not finite, an index is out of range, or
-/// world_from_object is singular.
+/// `scene_center_world` and `margin_factor`: margin_m is margin_factor·2⁻²⁴ times the largest coordinate of
+/// the triangle's vertices relative to the scene's centre, that is, margin_factor half-steps of single
+/// precision. Throws InputError, naming the object, where a coordinate is not finite, an index is out of
+/// range, or world_from_object is singular.
 ObjectPlanes make_planes(const Object& object, const glm::dvec3& scene_center_world, double margin_factor);
 
 /// Coordinates of an object's vertices in the world.

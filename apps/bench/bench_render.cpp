@@ -15,10 +15,12 @@ void print_ratios(const Scene& scene, int repeats) {
     for (const bool robust : {false, true}) {
       const BareWay way{width, true, robust};
       const VisibilityTimes t = visibility_over_embree(scene, way, repeats);
-      fmt::print("  {:24} bare {:5.1f} ms ({:5.1f} ns a ray); visibility {:5.1f} ms (surface {:5.1f}, light {:5.1f}); "
-                 "ratio {:.2f}\n",
-                 describe(way), 1e3 * t.bare, 1e9 * t.bare / t.rays, 1e3 * t.visibility, 1e3 * t.surface,
-                 1e3 * t.light, t.ratio);
+      fmt::print(
+          "  {:24} bare {:5.1f} ms ({:5.1f} ns a ray); visibility {:5.1f} ms (surface {:5.1f}, light "
+          "{:5.1f}); "
+          "ratio {:.2f}\n",
+          describe(way), 1e3 * t.bare, 1e9 * t.bare / t.rays, 1e3 * t.visibility, 1e3 * t.surface,
+          1e3 * t.light, t.ratio);
     }
   }
 }
@@ -26,10 +28,11 @@ void print_ratios(const Scene& scene, int repeats) {
 void print_capture(const Scene& scene, const char* what, bool bilinear, double noise, int repeats) {
   const CaptureTimes t = time_capture(scene, bilinear, noise, repeats);
   const glm::ivec2 size = scene.cameras[0].device.intrinsics.size;
-  fmt::print("  {:24} build {:5.1f} ms, rays {:4.1f}, surface {:5.1f}, light {:5.1f}, replay of {} pictures {:6.1f} "
-             "({:.2f} ns per pixel and picture)\n",
-             what, 1e3 * t.build, 1e3 * t.rays, 1e3 * t.surface, 1e3 * t.light, t.pictures, 1e3 * t.replay,
-             1e9 * t.replay / (double(size.x) * size.y * t.pictures));
+  fmt::print(
+      "  {:24} build {:5.1f} ms, rays {:4.1f}, surface {:5.1f}, light {:5.1f}, replay of {} pictures {:6.1f} "
+      "({:.2f} ns per pixel and picture)\n",
+      what, 1e3 * t.build, 1e3 * t.rays, 1e3 * t.surface, 1e3 * t.light, t.pictures, 1e3 * t.replay,
+      1e9 * t.replay / (double(size.x) * size.y * t.pictures));
 }
 
 }  // namespace

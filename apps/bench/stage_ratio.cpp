@@ -30,7 +30,8 @@ double median(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
-// The rays of the visibility stage, made once: directions of camera rays, and whole shadow rays, tile by tile.
+// The rays of the visibility stage, made once: directions of camera rays, and whole shadow rays, tile by
+// tile.
 struct ReadyRays {
   int tiles_x = 0, tiles_y = 0;
   std::vector<RayPacket> camera, shadow;
@@ -94,8 +95,8 @@ struct BareScene {
     for (const Object& object : source.objects) {
       RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
       const std::vector<glm::dvec3> world = world_positions(object);
-      auto* v = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0,
-                                                            RTC_FORMAT_FLOAT3, 12, world.size()));
+      auto* v = static_cast<float*>(
+          rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12, world.size()));
       for (const glm::dvec3& p : world)
         for (int i = 0; i < 3; ++i) *v++ = float(p[i] - center[i]);
       auto* t = static_cast<unsigned*>(rtcSetNewGeometryBuffer(
@@ -156,10 +157,9 @@ unsigned run_bare(const BareScene& bare, const ReadyRays& ready, const BareWay& 
   if (way.coherent) context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   std::atomic<unsigned> found = 0;
   parallel_for(ready.tiles_y, [&](std::size_t row) {
-    found += way.width == 16 ? play<16, RTCRayHit16, RTCRay16>(bare, ready, row, context, rtcIntersect16,
-                                                               rtcOccluded16)
-                             : play<8, RTCRayHit8, RTCRay8>(bare, ready, row, context, rtcIntersect8,
-                                                            rtcOccluded8);
+    found += way.width == 16
+                 ? play<16, RTCRayHit16, RTCRay16>(bare, ready, row, context, rtcIntersect16, rtcOccluded16)
+                 : play<8, RTCRayHit8, RTCRay8>(bare, ready, row, context, rtcIntersect8, rtcOccluded8);
   });
   return found;
 }
@@ -167,7 +167,8 @@ unsigned run_bare(const BareScene& bare, const ReadyRays& ready, const BareWay& 
 }  // namespace
 
 std::string describe(const BareWay& way) {
-  return fmt::format("{} wide{}{}", way.width, way.coherent ? ", coherent" : "", way.robust ? ", robust" : "");
+  return fmt::format("{} wide{}{}", way.width, way.coherent ? ", coherent" : "",
+                     way.robust ? ", robust" : "");
 }
 
 Scene bench_scene(int triangles) {
@@ -207,8 +208,8 @@ VisibilityTimes visibility_over_embree(const Scene& scene, const BareWay& way, i
     ratio.push_back((a + b) / c);
   }
   static_cast<void>(sink);
-  return {median(visibility_s), median(surface_s), median(light_s), median(bare_s), ready.count,
-          median(ratio)};
+  return {median(visibility_s), median(surface_s), median(light_s),
+          median(bare_s),       ready.count,       median(ratio)};
 }
 
 CaptureTimes time_capture(const Scene& source, bool bilinear, double noise_sigma_dn, int repeats) {
@@ -237,8 +238,8 @@ CaptureTimes time_capture(const Scene& source, bool bilinear, double noise_sigma
     build_s.push_back(a), rays_s.push_back(b), surface_s.push_back(c), light_s.push_back(d),
         replay_s.push_back(e);
   }
-  return {median(build_s), median(rays_s), median(surface_s), median(light_s), median(replay_s),
-          patterns.count};
+  return {median(build_s), median(rays_s),   median(surface_s),
+          median(light_s), median(replay_s), patterns.count};
 }
 
 }  // namespace laterna
