@@ -15,9 +15,17 @@ namespace laterna {
 std::string toml_text(double value);
 /// A basic string, quoted and escaped.
 std::string toml_text(const std::string& value);
-inline std::string toml_text(bool value) { return value ? "true" : "false"; }
-inline std::string toml_text(int value) { return std::to_string(value); }
-inline std::string toml_text(std::uint64_t value) { return std::to_string(value); }
+inline std::string toml_text(bool value) {
+  return value ? "true" : "false";
+}
+inline std::string toml_text(int value) {
+  return std::to_string(value);
+}
+inline std::string toml_text(std::uint64_t value) {
+  return std::to_string(value);
+}
+
+inline std::string toml_text(const std::array<double, 4>& value);
 
 /// "[a, b, c]".
 template <class T>
@@ -79,17 +87,12 @@ std::string toml_text(const T& noun) {
 
 template <Described T>
 std::vector<FieldText> field_texts(T noun) {
-  struct Texts {
-    std::vector<FieldText> texts;
-    template <class V>
-    void operator()(const Field& field, V& value) {
-      texts.push_back({field.key, toml_text(value)});
-    }
-    template <Described V>
-    void operator()(const Field&, std::vector<V>&) {}
-  } visit;
+  std::vector<FieldText> texts;
+  auto visit = [&]<class V>(const Field& field, V& value) {
+    if constexpr (!is_array_of_tables<V>) texts.push_back({field.key, toml_text(value)});
+  };
   describe(visit, noun);
-  return visit.texts;
+  return texts;
 }
 
 /// What a value must be, in words: "a number above 0", "2 integers from 1 to 16384", "one of "y", "z"".
@@ -109,7 +112,8 @@ std::string expected_text(const Field& field) {
   if constexpr (std::is_same_v<T, glm::dvec4>) return "4 numbers" + bounded;
   if constexpr (Named<T>) {
     std::string names;
-    for (const char* name : names_of(T{})) names += (names.empty() ? "" : ", ") + toml_text(std::string(name));
+    for (const char* name : names_of(T{}))
+      names += (names.empty() ? "" : ", ") + toml_text(std::string(name));
     return names_of(T{}).size() == 1 ? names : "one of " + names;
   }
   if constexpr (Described<T>) return "a table";

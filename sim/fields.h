@@ -2,13 +2,15 @@
 //
 //   template <class Visitor>
 //   void describe(Visitor& visit, Sensor& sensor) {
-//     visit(Field{.key = "bit_depth", .sentence = "Bits per sample.", .low = 1, .high = 16}, sensor.bit_depth);
+//     visit(Field{.key = "bit_depth", .sentence = "Bits per sample.", .low = 1, .high = 16},
+//     sensor.bit_depth);
 //   }
 //
-// A visitor is anything with `operator()(const Field&, T&)` for each type of value that a noun holds: bool, int,
-// std::uint64_t, double, std::string, an enumeration with names_of(), glm vectors, Matrix3x4, std::vector<double>,
-// std::optional of these, a described noun (a table) and a std::vector of described nouns (an array of tables).
-// The default of a field is its value in a value-initialised noun, and is written nowhere else.
+// A visitor is anything with `operator()(const Field&, T&)` for each type of value that a noun holds: bool,
+// int, std::uint64_t, double, std::string, an enumeration with names_of(), glm vectors, Matrix3x4,
+// std::vector<double>, std::optional of these, a described noun (a table) and a std::vector of described
+// nouns (an array of tables). The default of a field is its value in a value-initialised noun, and is written
+// nowhere else.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -67,6 +69,12 @@ concept Named = std::is_enum_v<T> && requires(T value) {
   { names_of(value) } -> std::convertible_to<std::span<const char* const>>;
 };
 
+/// Whether T is a std::vector of described nouns: an array of tables.
+template <class T>
+inline constexpr bool is_array_of_tables = false;
+template <Described T>
+inline constexpr bool is_array_of_tables<std::vector<T>> = true;
+
 template <class T>
 inline constexpr bool is_optional = false;
 template <class T>
@@ -75,15 +83,10 @@ inline constexpr bool is_optional<std::optional<T>> = true;
 /// The keys of a noun, in the order of its description.
 template <Described T>
 std::vector<std::string> keys_of(T noun = {}) {
-  struct Keys {
-    std::vector<std::string> keys;
-    template <class V>
-    void operator()(const Field& field, V&) {
-      keys.emplace_back(field.key);
-    }
-  } visit;
+  std::vector<std::string> keys;
+  auto visit = [&](const Field& field, auto&) { keys.emplace_back(field.key); };
   describe(visit, noun);
-  return visit.keys;
+  return keys;
 }
 
 }  // namespace laterna

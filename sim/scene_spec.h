@@ -27,43 +27,43 @@ enum class UpAxis { y, z };
 ///   "y").
 /// Where world_from_object is absent, x_world = translate + Rz·Ry·Rx · scale · U · (unit · x_file).
 struct MeshSpec {
-  std::string name;
-  std::string file, shape;
+  std::string name{};
+  std::string file{}, shape{};
   glm::dvec3 shape_size{1, 1, 1};
   int detail = 64;
   std::uint64_t seed = 1;
   std::string unit = "m";
   UpAxis up = UpAxis::z;
-  std::optional<Matrix3x4> world_from_object;
+  std::optional<Matrix3x4> world_from_object{};
   double scale = 1;
   glm::dvec3 rotate_deg{0, 0, 0};
   glm::dvec3 translate{0, 0, 0};
   double albedo = 0.8;
-  std::string albedo_map;
+  std::string albedo_map{};
   bool operator==(const MeshSpec&) const = default;
 };
 
 /// The geometry of a projector or a camera: intrinsics in exactly one way, placement in exactly one way.
 struct DeviceSpec {
-  std::string name;
-  std::optional<glm::ivec2> size;
-  std::optional<double> fx, fy, cx, cy;
-  std::optional<double> throw_ratio;
-  std::optional<glm::dvec2> lens_shift;
-  std::optional<double> fov_y_deg, fov_x_deg, aspect;
-  std::string cameramodel;
-  std::optional<Matrix3x4> device_from_world;
-  std::optional<glm::dvec3> position, look_at, up;
-  std::optional<glm::dvec3> rotation_vector_rad;
-  std::optional<glm::dvec4> quaternion_wxyz;
-  std::optional<glm::dvec3> translation;
-  Lens lens;
-  std::optional<double> near_m, far_m;
+  std::string name{};
+  std::optional<glm::ivec2> size{};
+  std::optional<double> fx{}, fy{}, cx{}, cy{};
+  std::optional<double> throw_ratio{};
+  std::optional<glm::dvec2> lens_shift{};
+  std::optional<double> fov_y_deg{}, fov_x_deg{}, aspect{};
+  std::string cameramodel{};
+  std::optional<Matrix3x4> device_from_world{};
+  std::optional<glm::dvec3> position{}, look_at{}, up{};
+  std::optional<glm::dvec3> rotation_vector_rad{};
+  std::optional<glm::dvec4> quaternion_wxyz{};
+  std::optional<glm::dvec3> translation{};
+  Lens lens{};
+  std::optional<double> near_m{}, far_m{};
   bool operator==(const DeviceSpec&) const = default;
 };
 
 struct ProjectorSpec {
-  DeviceSpec device;
+  DeviceSpec device{};
   double flux_lm = Projector{}.flux_lm;
   Lookup lookup = Projector{}.lookup;
   Border border = Projector{}.border;
@@ -71,8 +71,8 @@ struct ProjectorSpec {
 };
 
 struct CameraSpec {
-  DeviceSpec device;
-  Sensor sensor;
+  DeviceSpec device{};
+  Sensor sensor{};
   bool operator==(const CameraSpec&) const = default;
 };
 
@@ -82,12 +82,12 @@ struct PatternsSpec {
 };
 
 struct SceneSpec {
-  std::string name;
+  std::string name{};
   double ambient_lx = 0;
-  PatternsSpec patterns;
-  std::vector<MeshSpec> meshes;
-  std::vector<ProjectorSpec> projectors;
-  std::vector<CameraSpec> cameras;
+  PatternsSpec patterns{};
+  std::vector<MeshSpec> meshes{};
+  std::vector<ProjectorSpec> projectors{};
+  std::vector<CameraSpec> cameras{};
   bool operator==(const SceneSpec&) const = default;
 };
 
