@@ -18,6 +18,7 @@ namespace laterna {
 struct Lens {
   std::string model = "LENSMODEL_PINHOLE";
   std::vector<double> parameters;
+  bool operator==(const Lens&) const = default;
 };
 
 inline bool is_pinhole(const Lens& lens) { return lens.model == "LENSMODEL_PINHOLE"; }
