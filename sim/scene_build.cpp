@@ -98,7 +98,7 @@ Object build_object(const MeshSpec& spec, const std::filesystem::path& folder, M
   if (object.mesh.texture_coordinates.empty())
     throw InputError("albedo_map is given, but the mesh has no texture coordinates");
   auto& map = maps[folder / spec.albedo_map];
-  if (!map) map = std::make_shared<const Image<float>>(read_linear_gray(folder / spec.albedo_map));
+  if (!map) map = std::make_shared<const Image<float>>(read_grey_float(folder / spec.albedo_map, Encoding::srgb));
   object.albedo_map = map;
   return object;
 }

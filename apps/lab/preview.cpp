@@ -4,8 +4,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 namespace laterna {
 
@@ -32,33 +34,63 @@ Box seen_box(const Scene& scene, const Traced& traced) {
   return box;
 }
 
-// Looks from above and aside at everything: at right angles, in plan, to the mean line of sight where that is
-// not vertical.
-Camera observer(const Scene& scene, const Box& seen, glm::ivec2 size) {
-  glm::dvec3 low = seen.low, high = seen.high, sight(0.0), up(0.0);
-  const auto include = [&](const Device& device) {
-    const glm::dvec3 c = center_in_world(device.device_from_world);
-    low = glm::min(low, c), high = glm::max(high, c);
-    const glm::dmat3 axes = glm::transpose(device.device_from_world.rotation);
+// The corners of a box and the devices' centres: what the outside view must hold.
+std::vector<glm::dvec3> landmarks(const Scene& scene, const Box& seen) {
+  std::vector<glm::dvec3> points;
+  for (int k = 0; k < 8; ++k) {
+    points.emplace_back(k & 1 ? seen.high.x : seen.low.x, k & 2 ? seen.high.y : seen.low.y,
+                        k & 4 ? seen.high.z : seen.low.z);
+  }
+  for (const Projector& p : scene.projectors) points.push_back(center_in_world(p.device.device_from_world));
+  for (const Camera& c : scene.cameras) points.push_back(center_in_world(c.device.device_from_world));
+  return points;
+}
+
+// Where the outside view looks from, as a direction from the scene: aside of the mean line of sight, a little
+// behind the devices and above, with the cameras' mean upwards as up.
+struct Viewpoint {
+  glm::dvec3 direction, up;
+};
+Viewpoint viewpoint(const Scene& scene) {
+  glm::dvec3 sight(0.0), up(0.0);
+  for (const Projector& p : scene.projectors) sight += glm::transpose(p.device.device_from_world.rotation)[2];
+  for (const Camera& c : scene.cameras) {
+    const glm::dmat3 axes = glm::transpose(c.device.device_from_world.rotation);
     sight += axes[2];
-  };
-  for (const Projector& p : scene.projectors) include(p.device);
-  for (const Camera& c : scene.cameras)
-    include(c.device), up -= glm::transpose(c.device.device_from_world.rotation)[1];
+    up -= axes[1];
+  }
   up = glm::length(up) > 1e-6 ? glm::normalize(up) : glm::dvec3(0, 0, 1);
+  glm::dvec3 right = glm::cross(sight, up);
+  right = glm::length(right) > 1e-6 ? glm::normalize(right)
+                                    : glm::normalize(glm::cross(up, glm::dvec3(0.6, 0.8, 0.1)));
+  const glm::dvec3 backwards = glm::normalize(glm::cross(right, up));
+  return {glm::normalize(0.75 * right + 0.6 * backwards + 0.5 * up), up};
+}
+
+// Steps back until every landmark lies well inside the picture.
+Camera observer(const Scene& scene, const Box& seen, glm::ivec2 size) {
+  const std::vector<glm::dvec3> points = landmarks(scene, seen);
+  glm::dvec3 low = points[0], high = points[0];
+  for (const glm::dvec3& x : points) low = glm::min(low, x), high = glm::max(high, x);
   const glm::dvec3 centre = 0.5 * (low + high);
-  const double radius = std::max(1e-6, 0.5 * glm::length(high - low));
-  glm::dvec3 side = glm::cross(sight, up);
-  side = glm::length(side) > 1e-6 ? glm::normalize(side)
-                                  : glm::normalize(glm::cross(up, glm::dvec3(0.6, 0.8, 0.1)));
-  const glm::dvec3 back = glm::normalize(glm::cross(side, up));  // towards +sight in plan
-  const glm::dvec3 from = glm::normalize(0.75 * side - 0.55 * back + 0.5 * up);
+  const Viewpoint from = viewpoint(scene);
   Camera camera;
   camera.device.name = "observer";
   camera.device.intrinsics =
       intrinsics_from_fov_y(size, 30 * std::numbers::pi / 180, double(size.x) / size.y);
-  camera.device.device_from_world =
-      device_from_world_looking_at(centre + from * (radius / std::sin(0.25)), centre, up);
+  const auto fits = [&] {
+    const WorldProjection eye(camera.device);
+    return std::all_of(points.begin(), points.end(), [&](const glm::dvec3& x) {
+      const glm::dvec3 uvq = eye.project(x);
+      return uvq.z > 0 && std::abs(uvq.x / size.x - 0.5) < 0.44 && std::abs(uvq.y / size.y - 0.5) < 0.44;
+    });
+  };
+  double distance = std::max(1e-6, glm::length(high - low));
+  for (int k = 0; k < 60; ++k, distance *= 1.05) {
+    camera.device.device_from_world =
+        device_from_world_looking_at(centre + distance * from.direction, centre, from.up);
+    if (fits()) break;
+  }
   return camera;
 }
 

@@ -2,6 +2,7 @@
 
 #include "apps/lab/matrices.h"
 #include "sim/scene_file.h"
+#include "sim/scene_reference.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
