@@ -13,18 +13,28 @@ namespace {
 // How far before the projector's centre a shadow ray ends, as a share of its length: 2⁻²⁰, 1 µm per metre.
 constexpr float shadow_ray_end = 1 - 0x1p-20f;
 
+// The projector as one object sees it. "Relative" means in world axes, relative to the scene's centre.
+struct ObjectLight {
+  ProjectiveLookup lookup;
+  glm::dmat3 world_from_object_linear;
+  glm::dvec3 object_relative;  // the object's origin
+};
+
 struct Light {
-  glm::dvec3 center_world, center_relative;  // relative to the scene's centre
+  glm::dvec3 center_relative;
   double flux_per_pixel_lm;
-  std::vector<ProjectiveLookup> lookups;  // one per object
+  std::vector<ObjectLight> objects;
 };
 
 Light make_light(const RayScene& rays, const Scene& scene, const Projector& projector) {
   const glm::dvec3 center = center_in_world(projector.device.device_from_world);
   const glm::ivec2 size = projector.device.intrinsics.size;
-  Light light{center, center - rays.center_world(), projector.flux_lm / (double(size.x) * size.y), {}};
-  light.lookups.reserve(scene.objects.size());
-  for (const Object& object : scene.objects) light.lookups.emplace_back(projector, object.world_from_object);
+  Light light{center - rays.center_world(), projector.flux_lm / (double(size.x) * size.y), {}};
+  for (const Object& object : scene.objects) {
+    const glm::dmat4& m = object.world_from_object;
+    light.objects.push_back(
+        {ProjectiveLookup(projector, m), glm::dmat3(m), glm::dvec3(m[3]) - rays.center_world()});
+  }
   return light;
 }
 
@@ -39,21 +49,23 @@ void light_pixel(LightMap& map, std::size_t p, RayPacket& packet, int lane, cons
     return;
   }
   const std::uint32_t object = surface.object.values[p];
-  const ProjectedPoint hit = light.lookups[object].project(surface.point_object.values[p]);
+  const ObjectLight& view = light.objects[object];
+  const glm::dvec3& point_object = surface.point_object.values[p];
+  const ProjectedPoint hit = view.lookup.project(point_object);
   map.u_px.values[p] = hit.u_px;
   map.v_px.values[p] = hit.v_px;
   map.why.values[p] = std::uint8_t(hit.why);
   if (hit.why != Unlit::lit) return;
   const TrianglePlane& plane = rays.plane(object, surface.triangle.values[p]);
-  const glm::dvec3 point = surface.point_world.values[p];
-  const double height = glm::dot(plane.normal_world, light.center_world - point);
+  const glm::dvec3 point = view.world_from_object_linear * point_object + view.object_relative;
+  const double height = glm::dot(plane.normal_world, light.center_relative - point);
   if (!(height > 0) || !surface.seen_front.values[p]) {
     map.why.values[p] = std::uint8_t(Unlit::back_face);
     return;
   }
   const double z = hit.depth_m;
   map.white_lx.values[p] = light.flux_per_pixel_lm * hit.pixels_per_unit_area * height / (z * z * z);
-  const glm::dvec3 start = point - rays.center_world() + plane.margin_m * plane.normal_world;
+  const glm::dvec3 start = point + plane.margin_m * plane.normal_world;
   const glm::dvec3 towards = light.center_relative - start;
   packet.origin_x[lane] = static_cast<float>(start.x), packet.direction_x[lane] = float(towards.x);
   packet.origin_y[lane] = static_cast<float>(start.y), packet.direction_y[lane] = float(towards.y);
@@ -78,6 +90,8 @@ LightMap trace_light(const RayScene& rays, const Scene& scene, const SurfaceMap&
       for (int y = y0; y < y1; ++y)
         for (int x = x0; x < x1; ++x)
           light_pixel(map, map.u_px.index(x, y), packet, (y - y0) * tile_edge + x - x0, light, surface, rays);
+      if (std::none_of(packet.valid, packet.valid + packet_size, [](int valid) { return valid != 0; }))
+        continue;
       for (std::uint32_t blocked = rays.occluded(packet); blocked; blocked &= blocked - 1) {
         const int lane = std::countr_zero(blocked);
         const std::size_t p = map.u_px.index(x0 + lane % tile_edge, y0 + lane / tile_edge);

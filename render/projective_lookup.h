@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 namespace laterna {
 
@@ -53,11 +54,26 @@ class ProjectiveLookup {
   /// The divide, the lens, the light planes and the border. Lit where near ≤ q ≤ far and, with Border::black,
   /// -0.5 ≤ u < W-0.5 and -0.5 ≤ v < H-0.5: the light ends at the image's edge. With Border::clamp it goes
   /// on.
-  ProjectedPoint divide(const glm::dvec3& uq_vq_q) const;
+  ProjectedPoint divide(const glm::dvec3& uq_vq_q) const {
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    const double q = uq_vq_q.z;
+    if (!(q > 0)) return {nan, nan, q, 0, Unlit::behind};
+    const double inverse_q = 1 / q;
+    ProjectedPoint point{uq_vq_q.x * inverse_q, uq_vq_q.y * inverse_q, q, pinhole_area_, Unlit::lit};
+    if (!pinhole_ && !warp(point)) return {nan, nan, q, 0, Unlit::lens};
+    const bool inside =
+        point.u_px >= -0.5 && point.u_px < width_ - 0.5 && point.v_px >= -0.5 && point.v_px < height_ - 0.5;
+    if (!inside && !clamp_) point.why = Unlit::outside;
+    if (q > far_m_) point.why = Unlit::beyond_far;
+    if (q < near_m_) point.why = Unlit::before_near;
+    return point;
+  }
 
   ProjectedPoint project(const glm::dvec3& x_object) const { return divide(homogeneous_pixel(x_object)); }
 
  private:
+  bool warp(ProjectedPoint& point) const;  // pinhole pixel to the lens's; false where the lens fails
+
   double u_[4], v_[4], q_[4];
   double near_m_, far_m_, width_, height_, pinhole_area_;
   bool clamp_, pinhole_;

@@ -22,22 +22,20 @@ struct ObjectView {
 };
 
 struct View {
-  glm::dvec3 camera_world, camera_relative;  // relative to the scene's centre
+  glm::dvec3 camera_relative;  // in world axes, relative to the scene's centre
   glm::dmat3 world_from_device;
   std::vector<ObjectView> objects;
 };
 
 View make_view(const RayScene& rays, const Scene& scene, const Device& camera) {
   const Rigid world_from_device = inverse(camera.device_from_world);
-  View view{world_from_device.translation,
-            world_from_device.translation - rays.center_world(),
-            world_from_device.rotation,
-            {}};
+  const glm::dvec3 camera_world = world_from_device.translation;
+  View view{camera_world - rays.center_world(), world_from_device.rotation, {}};
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     const Object& object = scene.objects[i];
     const ObjectPlanes& planes = rays.objects()[i];
     const glm::dvec3 camera_object =
-        planes.object_from_world_linear * (view.camera_world - glm::dvec3(object.world_from_object[3]));
+        planes.object_from_world_linear * (camera_world - glm::dvec3(object.world_from_object[3]));
     const bool textured = object.albedo_map && !object.mesh.texture_coordinates.empty();
     view.objects.push_back({planes.object_from_world_linear * view.world_from_device,
                             camera_object - planes.center_object, camera_object, float(object.albedo),
@@ -47,7 +45,7 @@ View make_view(const RayScene& rays, const Scene& scene, const Device& camera) {
 }
 
 SurfaceMap make_map(int w, int h) {
-  return {w, h, {w, h}, {w, h}, {w, h}, {w, h}, {w, h}, {w, h}, {w, h}, {w, h}};
+  return {w, h, {w, h}, {w, h}, {w, h}, {w, h}, {w, h}, {w, h}};
 }
 
 // One tile of a camera's image while it is traced.
@@ -74,24 +72,20 @@ void aim(Tile& tile, const View& view, const CameraRays& directions, int x0, int
 
 void write_miss(SurfaceMap& map, std::size_t p) {
   map.object.values[p] = map.triangle.values[p] = no_hit;
-  map.point_world.values[p] = map.point_object.values[p] = glm::dvec3(nan);
-  map.normal_world.values[p] = glm::dvec3(0.0);
+  map.point_object.values[p] = glm::dvec3(nan);
   map.depth_m.values[p] = nan;
   map.albedo.values[p] = 0;
   map.seen_front.values[p] = 0;
 }
 
-void write_hit(SurfaceMap& map, std::size_t p, const View& view, const ObjectView& object,
-               const TrianglePlane& plane, const glm::dvec2& d, double embree_depth) {
-  const glm::dvec3 device(d, 1.0);
-  const glm::dvec3 ray_object = object.object_from_device * device;
+void write_hit(SurfaceMap& map, std::size_t p, const ObjectView& object, const TrianglePlane& plane,
+               const glm::dvec2& d, double embree_depth) {
+  const glm::dvec3 ray_object = object.object_from_device * glm::dvec3(d, 1.0);
   const double slope = glm::dot(plane.normal_object, ray_object);
   double depth = (plane.distance - glm::dot(plane.normal_object, object.camera_from_center)) / slope;
   if (!(std::abs(depth - embree_depth) <= 1e-3 * embree_depth)) depth = embree_depth;
   map.depth_m.values[p] = depth;
-  map.point_world.values[p] = view.camera_world + depth * (view.world_from_device * device);
   map.point_object.values[p] = object.camera_object + depth * ray_object;
-  map.normal_world.values[p] = plane.normal_world;
   map.seen_front.values[p] = slope < 0;
   map.albedo.values[p] = slope < 0 ? object.albedo : 0;
 }
@@ -114,7 +108,7 @@ void write_tile(SurfaceMap& map, const Tile& tile, const View& view, const RaySc
       map.object.values[p] = id;
       map.triangle.values[p] = triangle;
       const ObjectView& object = view.objects[id];
-      write_hit(map, p, view, object, scene.plane(id, triangle), tile.direction[lane], tile.hits.t[lane]);
+      write_hit(map, p, object, scene.plane(id, triangle), tile.direction[lane], tile.hits.t[lane]);
       if (object.textured) apply_albedo_map(map, p, *object.textured, triangle);
     }
   }
@@ -146,6 +140,26 @@ SurfaceMap trace_surface(const RayScene& rays, const Scene& scene, const Camera&
 
 SurfaceMap trace_surface(const RayScene& rays, const Scene& scene, const Camera& camera) {
   return trace_surface(rays, scene, camera, CameraRays(camera.device));
+}
+
+PixelArray<glm::dvec3> points_world(const SurfaceMap& surface, const Scene& scene) {
+  PixelArray<glm::dvec3> points(surface.width, surface.height);
+  for (std::size_t p = 0; p < points.values.size(); ++p) {
+    points.values[p] = surface.hit(p) ? glm::dvec3(scene.objects[surface.object.values[p]].world_from_object *
+                                                   glm::dvec4(surface.point_object.values[p], 1.0))
+                                      : glm::dvec3(nan);
+  }
+  return points;
+}
+
+PixelArray<glm::dvec3> normals_world(const SurfaceMap& surface, const RayScene& rays) {
+  PixelArray<glm::dvec3> normals(surface.width, surface.height);
+  for (std::size_t p = 0; p < normals.values.size(); ++p) {
+    normals.values[p] = surface.hit(p)
+                            ? rays.plane(surface.object.values[p], surface.triangle.values[p]).normal_world
+                            : glm::dvec3(0.0);
+  }
+  return normals;
 }
 
 }  // namespace laterna

@@ -10,15 +10,13 @@
 
 namespace laterna {
 
-/// One entry per camera pixel. Where nothing is hit, object is no_hit, albedo and normal are 0, and points
-/// and depth are NaN.
+/// One entry per camera pixel. Where nothing is hit, object and triangle are no_hit, albedo is 0, and point
+/// and depth are NaN. World points and normals follow from these: see below.
 struct SurfaceMap {
   int width = 0, height = 0;
   PixelArray<std::uint32_t> object;     ///< index into Scene::objects, or no_hit
   PixelArray<std::uint32_t> triangle;   ///< index into that object's triangles, or no_hit
-  PixelArray<glm::dvec3> point_world;   ///< metres
-  PixelArray<glm::dvec3> point_object;  ///< the same in the object's frame
-  PixelArray<glm::dvec3> normal_world;  ///< unit, of the flat triangle, towards its front side
+  PixelArray<glm::dvec3> point_object;  ///< metres, in the object's frame
   PixelArray<double> depth_m;           ///< along the camera's optical axis
   PixelArray<float> albedo;             ///< with the albedo map; 0 where the back side is seen
   PixelArray<std::uint8_t> seen_front;  ///< 1 where the camera sees the front side, else 0
@@ -35,5 +33,12 @@ SurfaceMap trace_surface(const RayScene& rays, const Scene& scene, const Camera&
 /// The same with the camera's rays at hand.
 SurfaceMap trace_surface(const RayScene& rays, const Scene& scene, const Camera& camera,
                          const CameraRays& directions);
+
+/// What each pixel sees in world coordinates, in metres; NaN where nothing is hit.
+PixelArray<glm::dvec3> points_world(const SurfaceMap& surface, const Scene& scene);
+
+/// The unit normal in the world of the flat triangle that each pixel sees, towards its front side; 0 where
+/// nothing is hit.
+PixelArray<glm::dvec3> normals_world(const SurfaceMap& surface, const RayScene& rays);
 
 }  // namespace laterna

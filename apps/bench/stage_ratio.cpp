@@ -39,8 +39,8 @@ struct ReadyRays {
 };
 
 void add_pixel(ReadyRays& ready, std::size_t tile, int lane, std::size_t p, const SurfaceMap& surface,
-               const LightMap& light, const glm::dvec3& camera, const glm::dvec3& projector,
-               const glm::dvec3& direction, const RayScene& rays) {
+               const LightMap& light, const glm::dvec3& point_world, const glm::dvec3& camera,
+               const glm::dvec3& projector, const glm::dvec3& direction, const RayScene& rays) {
   const glm::dvec3 origin = camera - rays.center_world();
   RayPacket& c = ready.camera[tile];
   c.origin_x[lane] = float(origin.x), c.origin_y[lane] = float(origin.y), c.origin_z[lane] = float(origin.z);
@@ -52,7 +52,7 @@ void add_pixel(ReadyRays& ready, std::size_t tile, int lane, std::size_t p, cons
   const auto why = Unlit(light.why.values[p]);
   if (why != Unlit::lit && why != Unlit::shadow) return;
   const TrianglePlane& plane = rays.plane(surface.object.values[p], surface.triangle.values[p]);
-  const glm::dvec3 start = surface.point_world.values[p] + plane.margin_m * plane.normal_world;
+  const glm::dvec3 start = point_world + plane.margin_m * plane.normal_world;
   const glm::dvec3 from = start - rays.center_world(), towards = projector - start;
   RayPacket& s = ready.shadow[tile];
   s.origin_x[lane] = float(from.x), s.origin_y[lane] = float(from.y), s.origin_z[lane] = float(from.z);
@@ -70,6 +70,7 @@ ReadyRays make_ready(const Scene& scene, const RayScene& rays) {
   const CameraRays directions(camera);
   const Rigid world_from_camera = inverse(camera.device_from_world);
   const glm::dvec3 projector = center_in_world(scene.projectors[0].device.device_from_world);
+  const PixelArray<glm::dvec3> points = points_world(surface, scene);
   ReadyRays ready;
   ready.tiles_x = (surface.width + 3) / 4, ready.tiles_y = (surface.height + 3) / 4;
   ready.camera.resize(std::size_t(ready.tiles_x) * ready.tiles_y);
@@ -78,8 +79,8 @@ ReadyRays make_ready(const Scene& scene, const RayScene& rays) {
     for (int x = 0; x < surface.width; ++x) {
       const glm::dvec3 d = world_from_camera.rotation * glm::dvec3(directions.direction(x, y), 1.0);
       add_pixel(ready, std::size_t(y / 4) * ready.tiles_x + x / 4, y % 4 * 4 + x % 4,
-                surface.object.index(x, y), surface, light, world_from_camera.translation, projector, d,
-                rays);
+                surface.object.index(x, y), surface, light, points(x, y), world_from_camera.translation,
+                projector, d, rays);
     }
   }
   return ready;
