@@ -66,8 +66,8 @@ void describe_fit(SolveResult& result, const PointTable& points, const std::vect
   result.residual_scale = residual_scale(s, p, loss);
 }
 
-// Picks the covariance that the verdict uses, and what it predicts over the estimate's own volume. False where the
-// estimate cannot map that volume.
+// Picks the covariance that the verdict uses, and what it predicts over the estimate's own volume. False
+// where the estimate cannot map that volume.
 bool predict(SolveResult& result, const std::vector<glm::dvec3>& world_points) {
   const int p = int(result.parameter_names.size());
   const auto volume = image_grid(result.estimate, volume_depths(depths_of(result.estimate, world_points)));
@@ -86,16 +86,17 @@ bool predict(SolveResult& result, const std::vector<glm::dvec3>& world_points) {
 }
 
 // Everything that makes an estimate weak, in plain sentences.
-std::vector<std::string> weaknesses(const SolveResult& r, const Correspondences& c, const SolveOptions& options,
-                                    bool maps_its_volume) {
+std::vector<std::string> weaknesses(const SolveResult& r, const Correspondences& c,
+                                    const SolveOptions& options, bool maps_its_volume) {
   std::vector<std::string> w;
   const double n = double(c.world_points.size()), p = double(r.parameter_names.size());
-  const std::string trade = fmt::format("{}; the relief is {:.2g} % of the throw", r.weakest_direction,
-                                        100 * r.relief_over_throw);
+  const std::string trade =
+      fmt::format("{}; the relief is {:.2g} % of the throw", r.weakest_direction, 100 * r.relief_over_throw);
   if (!maps_its_volume) w.push_back("the estimated lens maps no ray to parts of the projector's image");
   if (!(r.predicted_volume_rms_px <= options.tolerance_px)) {
-    w.push_back(fmt::format("the predicted volume error of {:.3g} px is above the tolerance of {:.3g} px ({})",
-                            r.predicted_volume_rms_px, options.tolerance_px, trade));
+    w.push_back(
+        fmt::format("the predicted volume error of {:.3g} px is above the tolerance of {:.3g} px ({})",
+                    r.predicted_volume_rms_px, options.tolerance_px, trade));
   }
   const auto& k = r.estimate.intrinsics;
   const double focal_share = std::max(r.sigma[0] / k.fx, r.sigma[1] / k.fy);
@@ -106,18 +107,21 @@ std::vector<std::string> weaknesses(const SolveResult& r, const Correspondences&
   }
   const double spare = std::max(1.0, 2 * n - p);
   if (r.residual_scale > 2 * std::sqrt(1 + 5 * std::sqrt(2 / spare))) {
-    w.push_back(fmt::format("the residual rms is {:.2g} times what the sigmas explain: lens distortion, wrong "
-                            "mesh or outliers",
-                            r.residual_scale));
+    w.push_back(
+        fmt::format("the residual rms is {:.2g} times what the sigmas explain: lens distortion, wrong "
+                    "mesh or outliers",
+                    r.residual_scale));
   }
   const bool robust = options.loss.kind != RobustLoss::Kind::none;
   const double bearable = options.loss.kind == RobustLoss::Kind::huber ? 0.15 : 0.5;
-  if (robust && r.outlier_share > bearable) w.push_back(fmt::format("{:.0f} % of the correspondences are outliers, more than this loss bears",
+  if (robust && r.outlier_share > bearable)
+    w.push_back(fmt::format("{:.0f} % of the correspondences are outliers, more than this loss bears",
                             100 * r.outlier_share));
   if (!r.clusters_suffice && !c.cluster.empty()) {
-    w.push_back(fmt::format("only {} blocks of the camera image hold correspondences and {} are needed: how far "
-                            "errors are correlated cannot be told",
-                            r.clusters, 3 * r.parameter_names.size()));
+    w.push_back(
+        fmt::format("only {} blocks of the camera image hold correspondences and {} are needed: how far "
+                    "errors are correlated cannot be told",
+                    r.clusters, 3 * r.parameter_names.size()));
   }
   return w;
 }
@@ -149,9 +153,10 @@ SolveResult solve(const Correspondences& c, glm::ivec2 size, const SolveOptions&
   result.scaled_singular_values = spectrum.singular_values;
   result.smallest_gap = spectrum.singular_values.back() / spectrum.singular_values.front();
   result.weakest_direction = direction_in_words(spectrum.weakest, result.parameter_names);
-  if (!fit.converged) return refused(std::move(result), fmt::format("the solver did not converge ({}): {} (relief {:.2g} % of the throw)",
-                                                  fit.termination, result.weakest_direction,
-                                                  100 * result.relief_over_throw));
+  if (!fit.converged)
+    return refused(std::move(result),
+                   fmt::format("the solver did not converge ({}): {} (relief {:.2g} % of the throw)",
+                               fit.termination, result.weakest_direction, 100 * result.relief_over_throw));
   const auto independent =
       result.smallest_gap > rank_deficient
           ? ceres_covariance(points, lens, fit.state, {options.loss, 0, double(std::max(size.x, size.y))})
