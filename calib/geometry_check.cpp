@@ -78,11 +78,6 @@ GeometryReport check_geometry(const Correspondences& c, int parameter_count) {
                                               n, parameter_count, needed));
   }
   const Spread world = spread_of<3>(c.world_points);
-  if (const std::size_t places = distinct(c.world_points, needed); s[1] > threshold && places < needed) {
-    return say(Geometry::too_few, fmt::format("{} correspondences at {} different world points, a projector "
-                                              "with {} parameters needs at least {}",
-                                              n, places, parameter_count, needed));
-  }
   const Spread pixels = spread_of<2>(c.projector_pixels);
   const Eigen::VectorXd& s = world.standard_deviation;
   report.spread_m = {s[0], s[1], s[2]};
@@ -93,6 +88,12 @@ GeometryReport check_geometry(const Correspondences& c, int parameter_count) {
   if (s[1] <= threshold) {
     return say(Geometry::collinear,
                "all world points lie on one line: their second spread is " + fraction(s[1], s[0]));
+  }
+  const std::size_t places = distinct(c.world_points, needed);
+  if (places < needed) {
+    return say(Geometry::too_few, fmt::format("{} correspondences at {} different world points, a projector "
+                                              "with {} parameters needs at least {}",
+                                              n, places, parameter_count, needed));
   }
   if (pixels.standard_deviation[1] <= flat * pixels.standard_deviation[0] ||
       pixels.standard_deviation[0] == 0) {
