@@ -44,13 +44,24 @@ Spread spread_of(const std::vector<Point>& points) {
   return {svd.singularValues() / std::sqrt(double(points.size())), svd.matrixV()};
 }
 
+// How many different points there are, counted up to `enough`.
+std::size_t distinct(const std::vector<glm::dvec3>& points, std::size_t enough) {
+  std::vector<glm::dvec3> seen;
+  for (std::size_t i = 0; i < points.size() && seen.size() < enough; ++i) {
+    if (std::find(seen.begin(), seen.end(), points[i]) == seen.end()) seen.push_back(points[i]);
+  }
+  return seen.size();
+}
+
 double largest_coordinate(const std::vector<glm::dvec3>& points) {
   double largest = 0;
   for (const auto& x : points) largest = std::max({largest, std::abs(x.x), std::abs(x.y), std::abs(x.z)});
   return largest;
 }
 
-std::string fraction(double small, double large) { return fmt::format("{:.1g} of the first", small / large); }
+std::string fraction(double small, double large) {
+  return fmt::format("{:.1g} of the first", small / large);
+}
 
 }  // namespace
 
@@ -77,6 +88,12 @@ GeometryReport check_geometry(const Correspondences& c, int parameter_count) {
   if (s[1] <= threshold) {
     return say(Geometry::collinear,
                "all world points lie on one line: their second spread is " + fraction(s[1], s[0]));
+  }
+  const std::size_t places = distinct(c.world_points, needed);
+  if (places < needed) {
+    return say(Geometry::too_few, fmt::format("{} correspondences at {} different world points, a projector "
+                                              "with {} parameters needs at least {}",
+                                              n, places, parameter_count, needed));
   }
   if (pixels.standard_deviation[1] <= flat * pixels.standard_deviation[0] ||
       pixels.standard_deviation[0] == 0) {
