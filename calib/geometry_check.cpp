@@ -59,9 +59,7 @@ double largest_coordinate(const std::vector<glm::dvec3>& points) {
   return largest;
 }
 
-std::string fraction(double small, double large) {
-  return fmt::format("{:.1g} of the first", small / large);
-}
+std::string fraction(double small, double large) { return fmt::format("{:.1g} of the first", small / large); }
 
 }  // namespace
 

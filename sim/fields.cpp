@@ -16,10 +16,10 @@ bool in_range(const Field& field, double number) {
 std::string range_text(const Field& field) {
   const bool has_low = std::isfinite(field.low), has_high = std::isfinite(field.high);
   if (has_low && has_high && field.low_excluded)
-    return fmt::format("above {} and at most {}", field.low, field.high);
-  if (has_low && has_high) return fmt::format("{} to {}", field.low, field.high);
-  if (has_low) return fmt::format("{} {}", field.low_excluded ? "above" : "at least", field.low);
-  if (has_high) return fmt::format("at most {}", field.high);
+    return fmt::format("above {:.6g} and at most {:.6g}", field.low, field.high);
+  if (has_low && has_high) return fmt::format("{:.6g} to {:.6g}", field.low, field.high);
+  if (has_low) return fmt::format("{} {:.6g}", field.low_excluded ? "above" : "at least", field.low);
+  if (has_high) return fmt::format("at most {:.6g}", field.high);
   return {};
 }
 

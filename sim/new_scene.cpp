@@ -18,7 +18,7 @@ ambient_lx = 2.0                     # lux on every surface, from everywhere: a 
 [[mesh]]
 name = "wall"
 shape = "relief"                     # instead of `file`: plane, box, sphere, relief, v_groove
-shape_size = [1.6, 1.1, 0.25]        # m, width, height and depth of its bumps
+shape_size = [1.3, 0.85, 0.25]       # m, width, height and depth of its bumps
 detail = 256                         # columns and rows
 seed = 1                             # other seeds give other bumps
 rotate_deg = [90, 0, 0]              # degrees about x, then y, then z: from lying to standing
@@ -44,9 +44,9 @@ albedo = 0.6
 name = "projector"
 size = [1920, 1080]                  # px, width and height of the panel
 throw_ratio = 1.3                    # distance over picture width; or fx, fy, cx, cy in px; or fov_y_deg
-lens_shift = [0.0, 0.4]              # fractions of width and height that move the picture left and up
-position = [-0.15, -1.6, -0.4]       # m
-look_at = [-0.1, 0.0, -0.4]          # m, a point on its axis
+lens_shift = [0.0, 0.5]              # fractions of width and height that move the picture left and up
+position = [-0.2, -1.6, -0.35]       # m
+look_at = [0.0, 0.0, -0.35]          # m, a point on its axis
 up = [0, 0, 1]                       # shown upwards in its picture
 flux_lm = 1000                       # lumen of the all-white picture
 # lens = { model = "LENSMODEL_OPENCV4", parameters = [-0.05, 0.0, 0.0, 0.0] }  # k1, k2, p1, p2

@@ -12,6 +12,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <map>
 #include <set>
+#include <utility>
 
 namespace laterna {
 
@@ -79,7 +80,17 @@ void expect_near(const Mesh& mesh, const glm::dmat4& world_from_object) {
   }
 }
 
-using Maps = std::map<std::filesystem::path, std::shared_ptr<const Image<float>>>;
+/// Albedo maps by file and encoding, so that meshes share them.
+using Maps = std::map<std::pair<std::filesystem::path, Encoding>, std::shared_ptr<const Image<float>>>;
+
+std::shared_ptr<const Image<float>> read_albedo_map(const std::filesystem::path& path, Encoding encoding) {
+  auto map = std::make_shared<const Image<float>>(read_grey_float(path, encoding));
+  for (const float value : map->values) {
+    if (!(value >= 0 && value <= 1))
+      throw InputError(fmt::format("{}: a pixel is {}, expected 0 to 1", path.string(), value));
+  }
+  return map;
+}
 
 Object build_object(const MeshSpec& spec, const std::filesystem::path& folder, Maps& maps) {
   Object object{.name = spec.name,
@@ -97,8 +108,8 @@ Object build_object(const MeshSpec& spec, const std::filesystem::path& folder, M
   if (spec.albedo_map.empty()) return object;
   if (object.mesh.texture_coordinates.empty())
     throw InputError("albedo_map is given, but the mesh has no texture coordinates");
-  auto& map = maps[folder / spec.albedo_map];
-  if (!map) map = std::make_shared<const Image<float>>(read_grey_float(folder / spec.albedo_map, Encoding::srgb));
+  auto& map = maps[{folder / spec.albedo_map, spec.albedo_map_encoding}];
+  if (!map) map = read_albedo_map(folder / spec.albedo_map, spec.albedo_map_encoding);
   object.albedo_map = map;
   return object;
 }
@@ -145,13 +156,9 @@ void check(const MeshSpec& mesh) {
   });
 }
 
-void check(const ProjectorSpec& projector) {
-  check_device(projector.device, "projector");
-}
+void check(const ProjectorSpec& projector) { check_device(projector.device, "projector"); }
 
-void check(const CameraSpec& camera) {
-  check_device(camera.device, "camera");
-}
+void check(const CameraSpec& camera) { check_device(camera.device, "camera"); }
 
 void check(const SceneSpec& scene) {
   if (scene.meshes.empty()) throw InputError("there is no [[mesh]], expected at least one");

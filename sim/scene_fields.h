@@ -1,4 +1,5 @@
-// The fields of a scene file, described once: the reader, the writer and the reference are visitors of this page.
+// The fields of a scene file, described once: the reader, the writer and the reference are visitors of this
+// page.
 #pragma once
 
 #include "sim/fields.h"
@@ -8,6 +9,10 @@ namespace laterna {
 
 inline std::span<const char* const> names_of(UpAxis) {
   static constexpr const char* names[] = {"y", "z"};
+  return names;
+}
+inline std::span<const char* const> names_of(Encoding) {
+  static constexpr const char* names[] = {"linear", "srgb"};
   return names;
 }
 inline std::span<const char* const> names_of(Lookup) {
@@ -29,9 +34,10 @@ void describe(Visitor& visit, Lens& lens) {
               .sentence = "A lens model of mrcal: LENSMODEL_PINHOLE, _STEREOGRAPHIC, _OPENCV4, _OPENCV5, "
                           "_OPENCV8, _OPENCV12, _CAHVOR or _SPLINED_STEREOGRAPHIC_..."},
         lens.model);
-  visit(Field{.key = "parameters",
-              .sentence = "Those that follow fx, fy, cx, cy, in mrcal's order (OPENCV5: k1, k2, p1, p2, k3)."},
-        lens.parameters);
+  visit(
+      Field{.key = "parameters",
+            .sentence = "Those that follow fx, fy, cx, cy, in mrcal's order (OPENCV5: k1, k2, p1, p2, k3)."},
+      lens.parameters);
 }
 
 template <class Visitor>
@@ -62,9 +68,10 @@ void describe(Visitor& visit, MeshSpec& mesh) {
   visit(Field{.key = "name",
               .sentence = "What messages and pictures call it. Absent: the file's or the shape's name."},
         mesh.name);
-  visit(Field{.key = "file",
-              .sentence = "A mesh file (PLY, OBJ, STL, glTF, IFC, ..., also .gz), relative to the scene file."},
-        mesh.file);
+  visit(
+      Field{.key = "file",
+            .sentence = "A mesh file (PLY, OBJ, STL, glTF, IFC, ..., also .gz), relative to the scene file."},
+      mesh.file);
   visit(Field{.key = "shape",
               .sentence = "Instead of a file: plane, box, sphere, relief or v_groove, centred at the origin, "
                           "its picture side towards +z."},
@@ -82,16 +89,16 @@ void describe(Visitor& visit, MeshSpec& mesh) {
               .high = 4096},
         mesh.detail);
   visit(Field{.key = "seed", .sentence = "Draws the relief's bumps.", .low = 0}, mesh.seed);
-  visit(Field{.key = "unit",
-              .sentence = "The unit of the file's coordinates: m, mm, cm, km, inch or foot."},
+  visit(Field{.key = "unit", .sentence = "The unit of the file's coordinates: m, mm, cm, km, inch or foot."},
         mesh.unit);
-  visit(Field{.key = "up",
-              .sentence = "The file's axis that points up. \"z\": coordinates as they stand. \"y\": the file's "
-                          "(x, y, z) becomes (x, -z, y)."},
-        mesh.up);
+  visit(
+      Field{.key = "up",
+            .sentence = "The file's axis that points up. \"z\": coordinates as they stand. \"y\": the file's "
+                        "(x, y, z) becomes (x, -z, y)."},
+      mesh.up);
   visit(Field{.key = "world_from_object",
               .unit = "m",
-              .sentence = "3×4 rows [A | t] of any affine map that is not singular, after `unit` and `up`. "
+              .sentence = "3×4 rows [A, t] of any affine map that is not singular, after `unit` and `up`. "
                           "Absent: scale, rotate_deg and translate.",
               .low = -farthest_m,
               .high = farthest_m},
@@ -115,11 +122,15 @@ void describe(Visitor& visit, MeshSpec& mesh) {
               .low = -farthest_m,
               .high = farthest_m},
         mesh.translate);
-  visit(Field{.key = "albedo", .sentence = "Reflected over incident light.", .low = 0, .high = 1}, mesh.albedo);
+  visit(Field{.key = "albedo", .sentence = "Reflected over incident light.", .low = 0, .high = 1},
+        mesh.albedo);
   visit(Field{.key = "albedo_map",
               .sentence = "A picture that multiplies `albedo`, through the mesh's texture coordinates; "
                           "relative to the scene file."},
         mesh.albedo_map);
+  visit(Field{.key = "albedo_map_encoding",
+              .sentence = "What the integers of an 8- or 16-bit picture mean; float pictures are linear."},
+        mesh.albedo_map_encoding);
 }
 
 template <class Visitor>
@@ -140,7 +151,8 @@ void describe_intrinsics(Visitor& visit, DeviceSpec& device) {
   Field cx = centre, cy = centre;
   cx.key = "cx";
   cx.sentence =
-      "Principal point, u; the centre of the first pixel is 0; may lie outside the picture. Absent, with fx: the "
+      "Principal point, u; the centre of the first pixel is 0; may lie outside the picture. Absent, with fx: "
+      "the "
       "picture's centre, (W-1)/2.";
   cy.key = "cy", cy.sentence = "Principal point, v, downwards. Absent, with fx: (H-1)/2.";
   visit(cx, device.cx);
@@ -184,7 +196,8 @@ void describe_placement(Visitor& visit, DeviceSpec& device) {
     visit(field, value);
   };
   point("device_from_world",
-        "3×4 rows [R | t] of a rotation and a translation: x_device = R·x_world + t, with x right, y down, z forward.",
+        "3×4 rows [R, t] of a rotation and a translation: x_device = R·x_world + t, with x right, y down, z "
+        "forward.",
         device.device_from_world);
   point("position", "Instead: where the device stands in the world,", device.position);
   point("look_at", "the world point that its axis goes through,", device.look_at);
@@ -200,27 +213,29 @@ void describe_placement(Visitor& visit, DeviceSpec& device) {
               .low = -1e6,
               .high = 1e6},
         device.quaternion_wxyz);
-  point("translation", "and the translation t of device_from_world, with either of the two.", device.translation);
+  point("translation", "and the translation t of device_from_world, with either of the two.",
+        device.translation);
 }
 
 template <class Visitor>
 void describe(Visitor& visit, DeviceSpec& device) {
-  visit(Field{.key = "name", .sentence = "Unique among all devices. Absent: projector or camera, numbered from 1 "
-                                         "where there are several."},
+  visit(Field{.key = "name",
+              .sentence = "Unique among all devices. Absent: projector or camera, numbered from 1 "
+                          "where there are several."},
         device.name);
   describe_intrinsics(visit, device);
   describe_placement(visit, device);
   visit(Field{.key = "lens", .sentence = "Distortion: a warp after the divide."}, device.lens);
   visit(Field{.key = "near",
               .unit = "m",
-              .sentence = "Axial depth where the light begins. Absent: no such plane.",
+              .sentence = "Axial depth where a projector's light begins. Absent: no such plane.",
               .low = 0,
               .high = farthest_m,
               .low_excluded = true},
         device.near_m);
   visit(Field{.key = "far",
               .unit = "m",
-              .sentence = "Axial depth where the light ends; near < far. Absent: no such plane.",
+              .sentence = "Axial depth where a projector's light ends; near < far. Absent: no such plane.",
               .low = 0,
               .high = farthest_m,
               .low_excluded = true},
@@ -250,8 +265,9 @@ void describe(Visitor& visit, CameraSpec& camera) {
 
 template <class Visitor>
 void describe(Visitor& visit, PatternsSpec& patterns) {
-  visit(Field{.key = "kind", .sentence = "White, black, then Gray code columns and rows with their inverses."},
-        patterns.kind);
+  visit(
+      Field{.key = "kind", .sentence = "White, black, then Gray code columns and rows with their inverses."},
+      patterns.kind);
 }
 
 template <class Visitor>

@@ -1,11 +1,12 @@
 // What a scene file says, field by field: nothing loaded, nothing computed.
 //
-// A field that is absent in the file is absent here: an empty string, an empty optional, or the default. How the
-// specification becomes a Scene is in sim/scene_build.h, what each field means in sim/scene_fields.h, how it is read
-// and written in sim/scene_file.h.
+// A field that is absent in the file is absent here: an empty string, an empty optional, or the default. How
+// the specification becomes a Scene is in sim/scene_build.h, what each field means in sim/scene_fields.h, how
+// it is read and written in sim/scene_file.h.
 #pragma once
 
 #include "sim/fields.h"
+#include "sim/image_file.h"
 #include "sim/scene.h"
 
 #include <glm/glm.hpp>
@@ -23,8 +24,8 @@ inline constexpr double farthest_m = 1e9;
 enum class UpAxis { y, z };
 
 /// A mesh: exactly one of `file` and `shape`. With unit, up and placement,
-///   x_world = world_from_object · U · (unit · x_file),  U = identity (up = "z") or (x, y, z) → (x, -z, y) (up =
-///   "y").
+///   x_world = world_from_object · U · (unit · x_file),  U = identity (up = "z") or (x, y, z) → (x, -z, y)
+///   (up = "y").
 /// Where world_from_object is absent, x_world = translate + Rz·Ry·Rx · scale · U · (unit · x_file).
 struct MeshSpec {
   std::string name{};
@@ -40,6 +41,7 @@ struct MeshSpec {
   glm::dvec3 translate{0, 0, 0};
   double albedo = 0.8;
   std::string albedo_map{};
+  Encoding albedo_map_encoding = Encoding::srgb;
   bool operator==(const MeshSpec&) const = default;
 };
 

@@ -47,7 +47,7 @@ std::vector<FolderEstimate> calibrate_folder(const std::filesystem::path& folder
                                              const GrayDecodeOptions& decode_options,
                                              const Progress& progress) {
   const RayScene rays(scene);
-  std::map<int, SurfaceMap> surfaces;
+  std::map<int, PixelArray<glm::dvec3>> points;
   std::map<std::string, Collected> projectors;
   for (const CaptureSequence& sequence : manifest.sequences) {
     if (progress)
@@ -59,7 +59,7 @@ std::vector<FolderEstimate> calibrate_folder(const std::filesystem::path& folder
       surfaces.emplace(camera, trace_surface(rays, scene, scene.cameras[camera]));
     Collected& collected = projectors[sequence.projector];
     collected.size = sequence.projector_size;
-    append_correspondences(map, surfaces.at(camera), camera, TrialOptions{}.block_px,
+    append_correspondences(map, points.at(camera), camera, TrialOptions{}.block_px,
                            collected.correspondences);
   }
   std::vector<FolderEstimate> estimates;

@@ -52,15 +52,19 @@ CaptureSequence describe(const Scene& scene, const View& view, const std::string
 
 }  // namespace
 
-void write_truth(const std::filesystem::path& path, const SurfaceMap& surface, const LightMap& light) {
+void write_truth(const std::filesystem::path& path, const Traced& traced, const View& view) {
   const std::vector<std::string> names{"projector.u", "projector.v", "projector.lit", "depth.m",
                                        "normal.x",    "normal.y",    "normal.z",      "world.x",
                                        "world.y",     "world.z",     "object.id"};
+  const SurfaceMap& surface = traced.surfaces[view.camera];
+  const LightMap& light = view.light;
+  const PixelArray<glm::dvec3>& points = traced.points_world[view.camera];
+  const PixelArray<glm::dvec3> normals = normals_world(surface, traced.rays);
   const std::size_t channels = names.size(), pixels = std::size_t(surface.width) * surface.height;
   std::vector<float> data(pixels * channels);
   parallel_for(std::size_t(surface.height), [&](std::size_t y) {
     for (std::size_t i = y * surface.width; i < (y + 1) * surface.width; ++i) {
-      const glm::dvec3 n = surface.normal_world.values[i], x = surface.point_world.values[i];
+      const glm::dvec3 n = normals.values[i], x = points.values[i];
       const double row[] = {light.u_px.values[i],
                             light.v_px.values[i],
                             double(light.lit(i)),
@@ -102,7 +106,7 @@ void write_capture(const SceneSpec& spec, const Scene& scene, const std::filesys
     times.measure("write", [&] {
       std::filesystem::create_directories(root / sequence.camera / sequence.projector);
       write_pictures(root, stack, sequence.pictures);
-      if (options.truth) write_truth(root / sequence.truth, traced.surfaces[view.camera], view.light);
+      if (options.truth) write_truth(root / sequence.truth, traced, view);
     });
     manifest.sequences.push_back(sequence);
   }

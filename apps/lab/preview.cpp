@@ -1,7 +1,5 @@
 #include "apps/lab/preview.h"
 
-#include "render/ray_scene.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -21,9 +19,9 @@ constexpr std::array<Rgb, 4> projector_colours{
 Box seen_box(const Scene& scene, const Traced& traced) {
   Box box{glm::dvec3(HUGE_VAL), glm::dvec3(-HUGE_VAL)};
   const auto extend = [&](const glm::dvec3& x) { box = {glm::min(box.low, x), glm::max(box.high, x)}; };
-  for (const SurfaceMap& surface : traced.surfaces) {
-    for (std::size_t i = 0; i < surface.object.values.size(); ++i) {
-      if (surface.hit(i)) extend(surface.point_world.values[i]);
+  for (std::size_t c = 0; c < traced.surfaces.size(); ++c) {
+    for (std::size_t i = 0; i < traced.surfaces[c].object.values.size(); ++i) {
+      if (traced.surfaces[c].hit(i)) extend(traced.points_world[c].values[i]);
     }
   }
   if (box.low.x <= box.high.x) return box;
@@ -100,24 +98,28 @@ Rgb mix(Rgb a, Rgb b, double share) {
   return c;
 }
 
-// Grey by the angle to the viewer; tinted where projectors light it.
-Rgb shade(const SurfaceMap& surface, const glm::dvec3& eye_world, const std::vector<const LightMap*>& lights,
-          std::size_t i) {
-  if (!surface.hit(i)) return background;
-  const glm::dvec3 to_eye = glm::normalize(eye_world - surface.point_world.values[i]);
-  const double facing = std::abs(glm::dot(to_eye, surface.normal_world.values[i]));
-  const double level = 45 + 150 * facing;
-  Rgb colour{std::uint8_t(level), std::uint8_t(level), std::uint8_t(level)};
-  for (std::size_t p = 0; p < lights.size(); ++p) {
-    if (!lights[p]->lit(i)) continue;
-    const Rgb tint = projector_colours[p % projector_colours.size()];
-    colour = mix(colour,
-                 {std::uint8_t(tint[0] * level / 195), std::uint8_t(tint[1] * level / 195),
-                  std::uint8_t(tint[2] * level / 195)},
-                 0.65);
+// A picture of what a device sees: grey by the angle to the viewer, tinted where projectors light it.
+struct Shading {
+  glm::dvec3 eye_world;
+  const SurfaceMap& surface;
+  PixelArray<glm::dvec3> points, normals;
+  std::vector<const LightMap*> lights;
+
+  Rgb operator()(int x, int y) const {
+    const std::size_t i = points.index(x, y);
+    if (!surface.hit(i)) return background;
+    const double facing = std::abs(glm::dot(glm::normalize(eye_world - points.values[i]), normals.values[i]));
+    const auto level = std::uint8_t(45 + 150 * facing);
+    Rgb colour{level, level, level};
+    for (std::size_t p = 0; p < lights.size(); ++p) {
+      if (!lights[p]->lit(i)) continue;
+      const Rgb tint = projector_colours[p % projector_colours.size()];
+      const auto shaded = [&](int k) { return std::uint8_t(tint[k] * level / 195); };
+      colour = mix(colour, {shaded(0), shaded(1), shaded(2)}, 0.65);
+    }
+    return colour;
   }
-  return colour;
-}
+};
 
 // Four edges from the centre to the picture's corners at a depth, the picture's outline there, and its upper
 // edge thicker.
@@ -147,15 +149,14 @@ void draw_outside(Canvas& canvas, const Scene& scene, const Traced& traced, glm:
                   glm::ivec2 size) {
   const Box seen = seen_box(scene, traced);
   const Camera eye = observer(scene, seen, size);
-  const RayScene rays(scene);
-  const SurfaceMap surface = trace_surface(rays, scene, eye);
+  const SurfaceMap surface = trace_surface(traced.rays, scene, eye);
   std::vector<LightMap> lights;
-  for (const Projector& p : scene.projectors) lights.push_back(trace_light(rays, scene, surface, p));
+  for (const Projector& p : scene.projectors) lights.push_back(trace_light(traced.rays, scene, surface, p));
   std::vector<const LightMap*> pointers;
   for (const LightMap& light : lights) pointers.push_back(&light);
-  const glm::dvec3 eye_world = center_in_world(eye.device.device_from_world);
   draw_panel(canvas, corner, size, size,
-             [&](int x, int y) { return shade(surface, eye_world, pointers, std::size_t(y) * size.x + x); });
+             Shading{center_in_world(eye.device.device_from_world), surface, points_world(surface, scene),
+                     normals_world(surface, traced.rays), pointers});
   const WorldProjection projection(eye.device);
   const glm::dvec3 centre = 0.5 * (seen.low + seen.high);
   const auto depth = [&](const Device& device) {
@@ -203,10 +204,10 @@ Canvas preview_picture(const Scene& scene, const Traced& traced) {
                            overlap(scene, traced, view).camera_lit);
     }
     const SurfaceMap& surface = traced.surfaces[c];
-    const glm::dvec3 eye = center_in_world(scene.cameras[c].device.device_from_world);
     draw_text(canvas, corner - glm::ivec2(0, 24), words, 14, ink);
     draw_panel(canvas, corner, panel, {surface.width, surface.height},
-               [&](int x, int y) { return shade(surface, eye, lights, std::size_t(y) * surface.width + x); });
+               Shading{center_in_world(scene.cameras[c].device.device_from_world), surface,
+                       traced.points_world[c], normals_world(surface, traced.rays), lights});
   }
   draw_text(canvas, {12, outside.y + 44},
             "blue: cameras; other colours: projectors and their light; thick edge: top of the picture", 12,

@@ -1,7 +1,6 @@
 #include "apps/lab/simulation.h"
 
 #include "render/exposure.h"
-#include "render/ray_scene.h"
 #include "render/replay.h"
 #include "sim/error.h"
 #include "sim/pattern.h"
@@ -31,8 +30,8 @@ double StageTimes::total() const {
 Traced trace(const Scene& scene, StageTimes& times, const Progress& progress) {
   if (scene.projectors.empty()) throw InputError("the scene has no [[projector]], expected at least one");
   if (scene.cameras.empty()) throw InputError("the scene has no [[camera]], expected at least one");
-  const RayScene rays = times.measure("build", [&] { return RayScene(scene); });
-  Traced traced;
+  Traced traced{times.measure("build", [&] { return RayScene(scene); }), {}, {}, {}};
+  const RayScene& rays = traced.rays;
   for (int c = 0; c < int(scene.cameras.size()); ++c) {
     const Camera& camera = scene.cameras[c];
     if (progress) {
@@ -41,6 +40,8 @@ Traced trace(const Scene& scene, StageTimes& times, const Progress& progress) {
                            camera.device.name, scene.projectors.size()));
     }
     traced.surfaces.push_back(times.measure("surface", [&] { return trace_surface(rays, scene, camera); }));
+    traced.points_world.push_back(
+        times.measure("surface", [&] { return points_world(traced.surfaces[c], scene); }));
     for (int p = 0; p < int(scene.projectors.size()); ++p) {
       View view{
           c, p,

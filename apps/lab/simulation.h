@@ -3,6 +3,7 @@
 #pragma once
 
 #include "render/direct_light.h"
+#include "render/ray_scene.h"
 #include "render/surface.h"
 #include "sim/image.h"
 #include "sim/scene.h"
@@ -42,8 +43,11 @@ struct View {
 
 /// What does not depend on the patterns: rays are traced once.
 struct Traced {
+  RayScene rays;
   std::vector<SurfaceMap> surfaces;  ///< one per camera
-  std::vector<View> views;           ///< camera by camera, projector by projector
+  std::vector<PixelArray<glm::dvec3>>
+      points_world;         ///< one per camera: what each pixel sees, m; NaN where nothing
+  std::vector<View> views;  ///< camera by camera, projector by projector
 };
 
 /// Traces every camera's surface and every projector's light on it, and chooses each view's exposure: the

@@ -47,23 +47,23 @@ std::vector<glm::dvec3> lit_points(const Traced& traced, int projector) {
   std::vector<glm::dvec3> points;
   for (const View& view : traced.views) {
     if (view.projector != projector) continue;
-    const SurfaceMap& surface = traced.surfaces[view.camera];
-    for (std::size_t i = 0; i < surface.point_world.values.size(); ++i) {
-      if (view.light.lit(i)) points.push_back(surface.point_world.values[i]);
+    const auto& points_world = traced.points_world[view.camera].values;
+    for (std::size_t i = 0; i < points_world.size(); ++i) {
+      if (view.light.lit(i)) points.push_back(points_world[i]);
     }
   }
   return points;
 }
 
-void append_correspondences(const DecodedMap& decoded, const SurfaceMap& surface, int camera, int block_px,
-                            Correspondences& out) {
-  const std::uint32_t columns = std::uint32_t((surface.width + block_px - 1) / block_px);
-  const std::uint32_t blocks = columns * std::uint32_t((surface.height + block_px - 1) / block_px);
-  for (int y = 0; y < surface.height; ++y) {
-    for (int x = 0; x < surface.width; ++x) {
-      const std::size_t i = std::size_t(y) * surface.width + x;
-      if (!decoded.valid.values[i] || !surface.hit(i)) continue;
-      out.world_points.push_back(surface.point_world.values[i]);
+void append_correspondences(const DecodedMap& decoded, const PixelArray<glm::dvec3>& points_world, int camera,
+                            int block_px, Correspondences& out) {
+  const std::uint32_t columns = std::uint32_t((points_world.width + block_px - 1) / block_px);
+  const std::uint32_t blocks = columns * std::uint32_t((points_world.height + block_px - 1) / block_px);
+  for (int y = 0; y < points_world.height; ++y) {
+    for (int x = 0; x < points_world.width; ++x) {
+      const std::size_t i = points_world.index(x, y);
+      if (!decoded.valid.values[i] || std::isnan(points_world.values[i].x)) continue;
+      out.world_points.push_back(points_world.values[i]);
       out.projector_pixels.emplace_back(decoded.u_px.values[i], decoded.v_px.values[i]);
       out.sigma_px.push_back(decoded.sigma_px.values[i]);
       out.cluster.push_back(std::uint32_t(camera) * blocks + std::uint32_t(y / block_px) * columns +
@@ -104,7 +104,7 @@ std::vector<ProjectorOutcome> run_trial(const Scene& scene, const Traced& traced
         return pictures ? decode_gray(*pictures, scene.projectors[p].device.intrinsics.size, options.decode)
                         : true_map(view.light);
       });
-      append_correspondences(decoded, traced.surfaces[view.camera], view.camera, options.block_px,
+      append_correspondences(decoded, traced.points_world[view.camera], view.camera, options.block_px,
                              correspondences);
       if (sink) sink(view, pictures ? &*pictures : nullptr, decoded);
     }

@@ -34,9 +34,9 @@ struct ProjectorOutcome {
 /// Called once per view with the pictures, before they are dropped.
 using ViewSink = std::function<void(const View&, const CapturedStack*, const DecodedMap&)>;
 
-/// Adds a view's decoded pixels, with the world points that the camera's surface map gives them.
-void append_correspondences(const DecodedMap& decoded, const SurfaceMap& surface, int camera, int block_px,
-                            Correspondences& out);
+/// Adds a view's decoded pixels, with the world points (m, NaN: none) that the camera's pixels see.
+void append_correspondences(const DecodedMap& decoded, const PixelArray<glm::dvec3>& points_world, int camera,
+                            int block_px, Correspondences& out);
 
 /// The true (u, v) of a view as a decoded map, sigma 1e-3 px: for tests of everything but decoding.
 DecodedMap true_map(const LightMap& light);
