@@ -11,9 +11,7 @@ int wrap(int i, int size) {
   return r < 0 ? r + size : r;
 }
 
-double fraction(double x) {
-  return x - std::floor(x);
-}
+double fraction(double x) { return x - std::floor(x); }
 
 }  // namespace
 

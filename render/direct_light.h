@@ -13,8 +13,8 @@ struct LightMap {
   int width = 0, height = 0;
   PixelArray<double> u_px, v_px;  ///< projector pixel, also where the point is dark for another reason than
                                   ///< `lens` or `behind`; NaN there and where nothing is seen
-  PixelArray<double> white_lx;   ///< illuminance on the surface for the all-white picture; 0 unless lit
-  PixelArray<std::uint8_t> why;  ///< Unlit: lit (0), or the first reason that the point is dark
+  PixelArray<double> white_lx;    ///< illuminance on the surface for the all-white picture; 0 unless lit
+  PixelArray<std::uint8_t> why;   ///< Unlit: lit (0), or the first reason that the point is dark
 
   bool lit(std::size_t i) const { return why.values[i] == std::uint8_t(Unlit::lit); }
 };

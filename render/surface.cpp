@@ -44,9 +44,7 @@ View make_view(const RayScene& rays, const Scene& scene, const Device& camera) {
   return view;
 }
 
-SurfaceMap make_map(int w, int h) {
-  return {w, h, {w, h}, {w, h}, {w, h}, {w, h}, {w, h}, {w, h}};
-}
+SurfaceMap make_map(int w, int h) { return {w, h, {w, h}, {w, h}, {w, h}, {w, h}, {w, h}, {w, h}}; }
 
 // One tile of a camera's image while it is traced.
 struct Tile {

@@ -12,9 +12,7 @@ namespace laterna {
 
 namespace {
 
-double largest(const glm::dvec3& v) {
-  return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-}
+double largest(const glm::dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
 void check(const Object& object) {
   const std::size_t count = object.mesh.positions.size();

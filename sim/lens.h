@@ -18,11 +18,10 @@ namespace laterna {
 struct Lens {
   std::string model = "LENSMODEL_PINHOLE";
   std::vector<double> parameters;
+  bool operator==(const Lens&) const = default;
 };
 
-inline bool is_pinhole(const Lens& lens) {
-  return lens.model == "LENSMODEL_PINHOLE";
-}
+inline bool is_pinhole(const Lens& lens) { return lens.model == "LENSMODEL_PINHOLE"; }
 
 /// How many parameters follow fx, fy, cx, cy. Throws InputError, naming the accepted models, for an unknown
 /// one. Accepted: PINHOLE, STEREOGRAPHIC, OPENCV4, 5, 8, 12, CAHVOR and SPLINED_STEREOGRAPHIC_... (each with

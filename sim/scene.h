@@ -45,6 +45,7 @@ struct Sensor {
   double noise_sigma_dn = 0;  ///< Gaussian, before rounding
   std::optional<double>
       saturation_cd_per_m2;  ///< the luminance L that fills the scale; absent: automatic exposure
+  bool operator==(const Sensor&) const = default;
 };
 
 /// A camera: a device that measures.

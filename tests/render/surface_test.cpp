@@ -13,9 +13,7 @@ using testing::device_at;
 using testing::object_of;
 using testing::scene_of;
 
-SurfaceMap trace(const Scene& scene) {
-  return trace_surface(RayScene(scene), scene, scene.cameras[0]);
-}
+SurfaceMap trace(const Scene& scene) { return trace_surface(RayScene(scene), scene, scene.cameras[0]); }
 
 // The world direction of pixel (x, y) of a pinhole, from scratch: right, down and forward of a camera that
 // looks from `position` to `target` with y up.

@@ -1,0 +1,92 @@
+// Picture files: the one place that writes and reads them (with OpenImageIO).
+#pragma once
+
+#include "sim/image.h"
+
+#include <glm/gtc/type_precision.hpp>
+
+#include <filesystem>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace laterna {
+
+/// What one value of a picture is: a digital number of 8 or 16 bits, or a float.
+enum class PixelType { u8, u16, f32 };
+
+/// A picture to be written: the channels of a pixel side by side, pixels row by row from the top.
+struct PictureView {
+  const void* data = nullptr;  ///< width·height·channels values of `type`
+  int width = 0, height = 0, channels = 0;
+  PixelType type = PixelType::u8;
+  std::vector<std::string> channel_names;  ///< empty, or one per channel; only EXR keeps them
+};
+
+/// Writes a picture whole or not at all (sim/safe_write.h). The extension chooses the format:
+///
+///   .png              u8 or u16, 1 or 3 channels; fast compression (level 1)
+///   .tif, .tiff       u8, u16 or f32, 1 or 3 channels; uncompressed
+///   .pgm, .ppm, .pnm  u8 or u16, 1 or 3 channels
+///   .exr              f32, any channels; a name such as "projector.u" is channel u of layer projector
+///
+/// The values are written as they are: nothing is scaled or gamma-encoded. Throws InputError, naming the
+/// path, for another extension, for a picture that the format does not hold, an empty one, or where writing
+/// fails.
+void write_picture(const std::filesystem::path& path, const PictureView& picture);
+void write_picture(const std::filesystem::path& path, const Image<std::uint8_t>& image);
+void write_picture(const std::filesystem::path& path, const Image<std::uint16_t>& image);
+void write_picture(const std::filesystem::path& path, const Image<float>& image);
+void write_picture(const std::filesystem::path& path, const Image<glm::u8vec3>& rgb);
+void write_picture(const std::filesystem::path& path, const Image<glm::u16vec3>& rgb);
+void write_picture(const std::filesystem::path& path, const Image<glm::vec3>& rgb);
+
+/// A picture as it was read, in a PictureView's order. The values are those of the file, except that half
+/// floats become floats, palettes colours, and a PNM with a smaller maximum is stretched to full scale.
+struct Picture {
+  int width = 0, height = 0;
+  std::vector<std::string> channel_names;
+  std::variant<std::vector<std::uint8_t>, std::vector<std::uint16_t>, std::vector<float>> values;
+};
+
+/// Reads any picture that OpenImageIO knows. Every reader of this page throws InputError, naming the path,
+/// where the file is missing, is no picture, is cut short, or where its header claims no pixels, more than
+/// 2³⁰, or more values than a file of its size can hold (checked before anything is allocated).
+Picture read_picture(const std::filesystem::path& path);
+
+/// Reads what a camera took: pictures of 8 or of 16 bits, all of the same size and depth, in the given order.
+/// Colour becomes grey as the rounded mean of R, G and B, which for equal channels is that value; alpha is
+/// ignored. Throws InputError that names the picture ("picture 7 of 42 is missing: …") where one is missing
+/// or unreadable, has another size or depth than the first, is of neither 8 nor 16 bits, or where the list is
+/// empty. Of several faults the first picture's is told.
+CapturedStack read_stack(const std::vector<std::filesystem::path>& files);
+
+/// What the integers in a file mean.
+enum class Encoding {
+  linear,  ///< value / full scale
+  srgb     ///< the same, then the sRGB curve (IEC 61966-2-1) decoded to linear light; float files are linear
+           ///< already
+};
+
+/// Reads a picture as one linear value per pixel: the mean of R, G and B where it has colour (after
+/// decoding). Integers become [0, 1]; floats stay. Throws InputError, beyond read_picture, for values that
+/// are not finite and for channels other than 1 to 4.
+Image<float> read_grey_float(const std::filesystem::path& path, Encoding encoding);
+
+/// Reads a picture as linear RGB; grey becomes three equal channels. Otherwise as read_grey_float.
+Image<glm::vec3> read_rgb_float(const std::filesystem::path& path, Encoding encoding);
+
+/// Named planes of one size, such as "projector.u", "projector.v", "depth".
+struct ExrLayers {
+  std::vector<std::string> names;
+  std::vector<Image<float>> planes;  ///< one per name
+};
+
+/// Writes planes as channels of one EXR file (32-bit float, ZIP). Throws InputError as write_picture does,
+/// and where sizes differ or names are missing, empty or repeated.
+void write_exr_layers(const std::filesystem::path& path, const ExrLayers& layers);
+
+/// Reads them back; the order of the names may differ. NaN stays NaN.
+ExrLayers read_exr_layers(const std::filesystem::path& path);
+
+}  // namespace laterna

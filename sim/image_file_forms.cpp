@@ -1,0 +1,189 @@
+// Stacks, linear light and layers, made of read_picture and write_picture.
+#include "sim/error.h"
+#include "sim/image_file.h"
+#include "sim/parallel.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <exception>
+#include <functional>
+
+namespace laterna {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+[[noreturn]] void refuse(const fs::path& path, const std::string& reason) {
+  throw InputError(fmt::format("{}: {}", path.string(), reason));
+}
+
+/// 1 or 3: how many of the channels are light and not alpha.
+std::size_t colours_of(const fs::path& path, std::size_t channels) {
+  if (channels < 1 || channels > 4)
+    refuse(path,
+           fmt::format("has {} channels, expected 1 to 4 (grey or RGB, with or without alpha)", channels));
+  return channels < 3 ? 1 : 3;
+}
+
+// ---- stacks
+
+int bits_of(const Picture& picture) {
+  constexpr std::array bits{8, 16, 0};
+  return bits.at(picture.values.index());
+}
+
+/// Throws where a picture cannot stand in one stack with the first.
+void validate_like(const Picture& first, const fs::path& path, const Picture& picture) {
+  if (picture.width != first.width || picture.height != first.height)
+    refuse(path, fmt::format("is {}×{} pixels, expected {}×{} as the first picture", picture.width,
+                             picture.height, first.width, first.height));
+  if (picture.values.index() != first.values.index())
+    refuse(path, fmt::format("holds {}, expected {} bits as the first picture",
+                             bits_of(picture) == 0 ? "floats" : fmt::format("{} bits", bits_of(picture)),
+                             bits_of(first)));
+}
+
+template <class T>
+void make_grey(const fs::path& path, const Picture& picture, std::span<T> grey) {
+  const std::size_t channels = picture.channel_names.size();
+  const bool colour = colours_of(path, channels) == 3;
+  const T* v = std::get<std::vector<T>>(picture.values).data();
+  for (T& value : grey) {
+    value = colour ? static_cast<T>((v[0] + v[1] + v[2] + 1) / 3) : v[0];
+    v += channels;
+  }
+}
+
+/// "picture 7 of 42: …" before what `action` has to say about picture k.
+void naming_picture(std::size_t k, std::size_t count, const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("picture {} of {}: {}", k + 1, count, error.what()));
+  }
+}
+
+/// Reads all pictures at the same time; of several faults the first picture's is thrown.
+template <class T>
+ImageStack<T> read_all(const std::vector<fs::path>& files, const Picture& first) {
+  ImageStack<T> stack(first.width, first.height, int(files.size()));
+  std::vector<std::exception_ptr> faults(files.size());
+  parallel_for(files.size(), [&](std::size_t k) {
+    try {
+      naming_picture(k, files.size(), [&] {
+        const Picture picture = k == 0 ? first : read_picture(files[k]);
+        validate_like(first, files[k], picture);
+        make_grey(files[k], picture, stack.picture(int(k)));
+      });
+    } catch (...) {
+      faults[k] = std::current_exception();
+    }
+  });
+  for (const std::exception_ptr& fault : faults)
+    if (fault) std::rethrow_exception(fault);
+  return stack;
+}
+
+void expect_all_present(const std::vector<fs::path>& files) {
+  if (files.empty()) throw InputError("no pictures, expected at least one");
+  for (std::size_t k = 0; k < files.size(); ++k) {
+    std::error_code ignored;
+    if (!fs::exists(files[k], ignored))
+      throw InputError(
+          fmt::format("picture {} of {} is missing: {}", k + 1, files.size(), files[k].string()));
+  }
+}
+
+// ---- linear light
+
+float linear_from_srgb(float encoded) {
+  return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
+}
+
+/// Integers to [0, 1] by the encoding, floats as they are.
+std::vector<float> linear_values(const Picture& picture, Encoding encoding) {
+  const auto convert = [encoding](const auto& values, float full_scale) {
+    std::vector<float> linear(values.begin(), values.end());
+    for (float& v : linear)
+      v = encoding == Encoding::srgb ? linear_from_srgb(v / full_scale) : v / full_scale;
+    return linear;
+  };
+  if (const auto* bytes = std::get_if<std::vector<std::uint8_t>>(&picture.values))
+    return convert(*bytes, 255.0f);
+  if (const auto* words = std::get_if<std::vector<std::uint16_t>>(&picture.values))
+    return convert(*words, 65535.0f);
+  return std::get<std::vector<float>>(picture.values);
+}
+
+}  // namespace
+
+CapturedStack read_stack(const std::vector<fs::path>& files) {
+  expect_all_present(files);
+  Picture first;
+  naming_picture(0, files.size(), [&] {
+    first = read_picture(files[0]);
+    if (bits_of(first) == 0) refuse(files[0], "holds floats, expected 8 or 16 bits");
+  });
+  if (bits_of(first) == 8) return read_all<std::uint8_t>(files, first);
+  return read_all<std::uint16_t>(files, first);
+}
+
+Image<glm::vec3> read_rgb_float(const fs::path& path, Encoding encoding) {
+  const Picture picture = read_picture(path);
+  const std::size_t channels = picture.channel_names.size(), colours = colours_of(path, channels);
+  const std::vector<float> values = linear_values(picture, encoding);
+  Image<glm::vec3> rgb(picture.width, picture.height);
+  for (std::size_t i = 0; i < rgb.values.size(); ++i) {
+    const float* v = values.data() + i * channels;
+    rgb.values[i] = colours == 3 ? glm::vec3(v[0], v[1], v[2]) : glm::vec3(v[0]);
+    if (!std::isfinite(rgb.values[i].x + rgb.values[i].y + rgb.values[i].z))
+      refuse(path, fmt::format("pixel ({}, {}) holds a value that is not finite, expected finite numbers",
+                               i % rgb.width, i / rgb.width));
+  }
+  return rgb;
+}
+
+Image<float> read_grey_float(const fs::path& path, Encoding encoding) {
+  const Image<glm::vec3> rgb = read_rgb_float(path, encoding);
+  Image<float> grey(rgb.width, rgb.height);
+  std::transform(rgb.values.begin(), rgb.values.end(), grey.values.begin(), [](const glm::vec3& v) {
+    return v.x == v.y && v.y == v.z ? v.x : (v.x + v.y + v.z) / 3;  // equal channels keep their very bits
+  });
+  return grey;
+}
+
+void write_exr_layers(const fs::path& path, const ExrLayers& layers) {
+  if (layers.planes.empty() || layers.names.size() != layers.planes.size())
+    refuse(path, fmt::format("{} names for {} planes, expected one each", layers.names.size(),
+                             layers.planes.size()));
+  const int width = layers.planes[0].width, height = layers.planes[0].height;
+  const std::size_t count = layers.planes.size();
+  std::vector<float> interleaved(std::size_t(width) * height * count);
+  for (std::size_t c = 0; c < count; ++c) {
+    const Image<float>& plane = layers.planes[c];
+    if (plane.width != width || plane.height != height)
+      refuse(path, fmt::format("plane {} is {}×{} pixels, expected {}×{} as the first", layers.names[c],
+                               plane.width, plane.height, width, height));
+    for (std::size_t i = 0; i < plane.values.size(); ++i) interleaved[i * count + c] = plane.values[i];
+  }
+  write_picture(path, {interleaved.data(), width, height, int(count), PixelType::f32, layers.names});
+}
+
+ExrLayers read_exr_layers(const fs::path& path) {
+  const Picture picture = read_picture(path);
+  const auto* values = std::get_if<std::vector<float>>(&picture.values);
+  if (values == nullptr) refuse(path, "holds integers, expected an EXR file of floats");
+  ExrLayers layers{picture.channel_names, {}};
+  const std::size_t count = layers.names.size();
+  for (std::size_t c = 0; c < count; ++c) {
+    Image<float>& plane = layers.planes.emplace_back(picture.width, picture.height);
+    for (std::size_t i = 0; i < plane.values.size(); ++i) plane.values[i] = (*values)[i * count + c];
+  }
+  return layers;
+}
+
+}  // namespace laterna

@@ -1,0 +1,207 @@
+#include "sim/scene_build.h"
+
+#include "sim/device_spec.h"
+#include "sim/error.h"
+#include "sim/image_file.h"
+#include "sim/mesh_file.h"
+#include "sim/shapes.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+#include <map>
+#include <set>
+#include <utility>
+
+namespace laterna {
+
+namespace {
+
+std::string heading(const char* kind, const std::string& name) {
+  return name.empty() ? fmt::format("[[{}]]", kind) : fmt::format("[[{}]] \"{}\"", kind, name);
+}
+
+/// Runs `action`; an InputError gets `what` in front.
+template <class Action>
+auto about(const std::string& what, Action&& action) {
+  try {
+    return action();
+  } catch (const InputError& error) {
+    throw InputError(what + ": " + error.what());
+  }
+}
+
+void check_device(const DeviceSpec& device, const char* kind) {
+  const std::string what = heading(kind, device.name);
+  if (device.cameramodel.empty())
+    device_of(device, {}, what);
+  else
+    check_ways(device, what);
+}
+
+glm::dmat4 affine(const Matrix3x4& rows) {
+  glm::dmat4 m(1.0);
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 4; ++j) m[j][i] = rows[i][j];
+  return m;
+}
+
+/// |det A| over the product of the columns' lengths: 1 for orthogonal columns, 0 for a singular map.
+double conditioning(const glm::dmat3& a) {
+  return std::abs(glm::determinant(a)) / (glm::length(a[0]) * glm::length(a[1]) * glm::length(a[2]));
+}
+
+glm::dmat4 placement_of(const MeshSpec& mesh) {
+  const MeshSpec unplaced;
+  if (!mesh.world_from_object) {
+    const glm::dvec3 turn = glm::radians(mesh.rotate_deg);
+    glm::dmat4 m = glm::translate(glm::dmat4(1.0), mesh.translate);
+    m = glm::rotate(m, turn.z, glm::dvec3(0, 0, 1));
+    m = glm::rotate(m, turn.y, glm::dvec3(0, 1, 0));
+    m = glm::rotate(m, turn.x, glm::dvec3(1, 0, 0));
+    return glm::scale(m, glm::dvec3(mesh.scale));
+  }
+  if (mesh.scale != unplaced.scale || mesh.rotate_deg != unplaced.rotate_deg ||
+      mesh.translate != unplaced.translate) {
+    throw InputError(
+        "world_from_object is given beside scale, rotate_deg or translate, expected one of the two");
+  }
+  return affine(*mesh.world_from_object);
+}
+
+void expect_near(const Mesh& mesh, const glm::dmat4& world_from_object) {
+  for (const glm::dvec3& position : mesh.positions) {
+    const glm::dvec3 p(world_from_object * glm::dvec4(position, 1.0));
+    if (std::abs(p.x) <= farthest_m && std::abs(p.y) <= farthest_m && std::abs(p.z) <= farthest_m) continue;
+    throw InputError(
+        fmt::format("a vertex comes to lie at ({}, {}, {}) m, expected within {} m of the origin", p.x, p.y,
+                    p.z, farthest_m));
+  }
+}
+
+/// Albedo maps by file and encoding, so that meshes share them.
+using Maps = std::map<std::pair<std::filesystem::path, Encoding>, std::shared_ptr<const Image<float>>>;
+
+std::shared_ptr<const Image<float>> read_albedo_map(const std::filesystem::path& path, Encoding encoding) {
+  auto map = std::make_shared<const Image<float>>(read_grey_float(path, encoding));
+  for (const float value : map->values) {
+    if (!(value >= 0 && value <= 1))
+      throw InputError(fmt::format("{}: a pixel is {}, expected 0 to 1", path.string(), value));
+  }
+  return map;
+}
+
+Object build_object(const MeshSpec& spec, const std::filesystem::path& folder, Maps& maps) {
+  Object object{.name = spec.name,
+                .mesh = {},
+                .world_from_object = world_from_file(spec),
+                .albedo = spec.albedo,
+                .albedo_map = {}};
+  if (spec.file.empty()) {
+    object.mesh = make_shape({spec.shape, spec.shape_size, spec.detail, spec.seed});
+  } else {
+    object.mesh = read_mesh(folder / spec.file);
+  }
+  validate(object.mesh, spec.file.empty() ? spec.shape : spec.file);
+  expect_near(object.mesh, object.world_from_object);
+  if (spec.albedo_map.empty()) return object;
+  if (object.mesh.texture_coordinates.empty())
+    throw InputError("albedo_map is given, but the mesh has no texture coordinates");
+  auto& map = maps[{folder / spec.albedo_map, spec.albedo_map_encoding}];
+  if (!map) map = read_albedo_map(folder / spec.albedo_map, spec.albedo_map_encoding);
+  object.albedo_map = map;
+  return object;
+}
+
+template <class Spec>
+void name_devices(std::vector<Spec>& devices, const char* kind) {
+  for (std::size_t i = 0; i < devices.size(); ++i) {
+    std::string& name = devices[i].device.name;
+    if (name.empty()) name = devices.size() == 1 ? kind : fmt::format("{}{}", kind, i + 1);
+  }
+}
+
+std::string mesh_name(const MeshSpec& mesh) {
+  if (mesh.file.empty()) return mesh.shape;
+  std::filesystem::path stem = std::filesystem::path(mesh.file).filename();
+  if (stem.extension() == ".gz") stem = stem.stem();
+  return stem.stem().string();
+}
+
+}  // namespace
+
+glm::dmat4 world_from_file(const MeshSpec& mesh) {
+  const double metres = metres_per_unit(mesh.unit);
+  const glm::dmat4 z_up_from_y_up(glm::dvec4(1, 0, 0, 0), glm::dvec4(0, 0, 1, 0), glm::dvec4(0, -1, 0, 0),
+                                  glm::dvec4(0, 0, 0, 1));
+  const glm::dmat4 turn = mesh.up == UpAxis::y ? z_up_from_y_up : glm::dmat4(1.0);
+  const glm::dmat4 m = placement_of(mesh) * turn * glm::scale(glm::dmat4(1.0), glm::dvec3(metres));
+  // 1e-9: a map that flattens the mesh to less than that leaves no digits for its surface.
+  const double kept = conditioning(glm::dmat3(m));
+  if (!(kept > 1e-9)) {
+    throw InputError(fmt::format(
+        "world_from_object is singular (it keeps {:.3g} of a volume), expected an invertible map", kept));
+  }
+  return m;
+}
+
+void check(const MeshSpec& mesh) {
+  about(heading("mesh", mesh.name), [&] {
+    if (mesh.file.empty() == mesh.shape.empty()) {
+      throw InputError(mesh.file.empty() ? "file and shape are missing, expected one of the two"
+                                         : "file and shape are both given, expected one of the two");
+    }
+    world_from_file(mesh);
+  });
+}
+
+void check(const ProjectorSpec& projector) { check_device(projector.device, "projector"); }
+
+void check(const CameraSpec& camera) { check_device(camera.device, "camera"); }
+
+void check(const SceneSpec& scene) {
+  if (scene.meshes.empty()) throw InputError("there is no [[mesh]], expected at least one");
+  const SceneSpec named = with_names(scene);
+  std::set<std::string> names;
+  const auto add = [&](const char* kind, const std::string& name) {
+    if (!names.insert(name).second)
+      throw InputError(fmt::format("{}: the name is taken by another device, expected one of its own",
+                                   heading(kind, name)));
+  };
+  for (const ProjectorSpec& projector : named.projectors) add("projector", projector.device.name);
+  for (const CameraSpec& camera : named.cameras) add("camera", camera.device.name);
+}
+
+SceneSpec with_names(SceneSpec spec) {
+  for (MeshSpec& mesh : spec.meshes)
+    if (mesh.name.empty()) mesh.name = mesh_name(mesh);
+  name_devices(spec.projectors, "projector");
+  name_devices(spec.cameras, "camera");
+  return spec;
+}
+
+Scene build_scene(const SceneSpec& spec, const std::filesystem::path& folder) {
+  check(spec);
+  Scene scene{.objects = {},
+              .projectors = {},
+              .cameras = {},
+              .ambient_lx = spec.ambient_lx,
+              .patterns = spec.patterns.kind};
+  const SceneSpec named = with_names(spec);
+  Maps maps;
+  for (const MeshSpec& mesh : named.meshes) {
+    check(mesh);
+    scene.objects.push_back(
+        about(heading("mesh", mesh.name), [&] { return build_object(mesh, folder, maps); }));
+  }
+  for (const ProjectorSpec& p : named.projectors) {
+    scene.projectors.push_back(
+        {device_of(p.device, folder, heading("projector", p.device.name)), p.flux_lm, p.lookup, p.border});
+  }
+  for (const CameraSpec& c : named.cameras)
+    scene.cameras.push_back({device_of(c.device, folder, heading("camera", c.device.name)), c.sensor});
+  return scene;
+}
+
+}  // namespace laterna

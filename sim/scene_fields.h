@@ -1,0 +1,288 @@
+// The fields of a scene file, described once: the reader, the writer and the reference are visitors of this
+// page.
+#pragma once
+
+#include "sim/fields.h"
+#include "sim/scene_spec.h"
+
+namespace laterna {
+
+inline std::span<const char* const> names_of(UpAxis) {
+  static constexpr const char* names[] = {"y", "z"};
+  return names;
+}
+inline std::span<const char* const> names_of(Encoding) {
+  static constexpr const char* names[] = {"linear", "srgb"};
+  return names;
+}
+inline std::span<const char* const> names_of(Lookup) {
+  static constexpr const char* names[] = {"nearest", "bilinear"};
+  return names;
+}
+inline std::span<const char* const> names_of(Border) {
+  static constexpr const char* names[] = {"black", "clamp"};
+  return names;
+}
+inline std::span<const char* const> names_of(PatternKind) {
+  static constexpr const char* names[] = {"gray"};
+  return names;
+}
+
+template <class Visitor>
+void describe(Visitor& visit, Lens& lens) {
+  visit(Field{.key = "model",
+              .sentence = "A lens model of mrcal: LENSMODEL_PINHOLE, _STEREOGRAPHIC, _OPENCV4, _OPENCV5, "
+                          "_OPENCV8, _OPENCV12, _CAHVOR or _SPLINED_STEREOGRAPHIC_..."},
+        lens.model);
+  visit(
+      Field{.key = "parameters",
+            .sentence = "Those that follow fx, fy, cx, cy, in mrcal's order (OPENCV5: k1, k2, p1, p2, k3)."},
+      lens.parameters);
+}
+
+template <class Visitor>
+void describe(Visitor& visit, Sensor& sensor) {
+  visit(Field{.key = "bit_depth",
+              .unit = "bit",
+              .sentence = "Full scale is 2^bit_depth - 1 DN; 9 to 16 bits go to 16-bit files.",
+              .low = 8,
+              .high = 16},
+        sensor.bit_depth);
+  visit(Field{.key = "noise_sigma_dn",
+              .unit = "DN",
+              .sentence = "Standard deviation of Gaussian noise, added before rounding.",
+              .low = 0,
+              .high = 65535},
+        sensor.noise_sigma_dn);
+  visit(Field{.key = "saturation_cd_per_m2",
+              .unit = "cd/m²",
+              .sentence = "The luminance that fills the scale. Absent: automatic exposure.",
+              .low = 0,
+              .high = 1e12,
+              .low_excluded = true},
+        sensor.saturation_cd_per_m2);
+}
+
+template <class Visitor>
+void describe(Visitor& visit, MeshSpec& mesh) {
+  visit(Field{.key = "name",
+              .sentence = "What messages and pictures call it. Absent: the file's or the shape's name."},
+        mesh.name);
+  visit(
+      Field{.key = "file",
+            .sentence = "A mesh file (PLY, OBJ, STL, glTF, IFC, ..., also .gz), relative to the scene file."},
+      mesh.file);
+  visit(Field{.key = "shape",
+              .sentence = "Instead of a file: plane, box, sphere, relief or v_groove, centred at the origin, "
+                          "its picture side towards +z."},
+        mesh.shape);
+  visit(Field{.key = "shape_size",
+              .unit = "m",
+              .sentence = "Size of the shape along x, y and z; a sphere's diameter three times.",
+              .low = 0,
+              .high = farthest_m,
+              .low_excluded = true},
+        mesh.shape_size);
+  visit(Field{.key = "detail",
+              .sentence = "Columns and rows of a plane or relief, subdivisions of a sphere.",
+              .low = 1,
+              .high = 4096},
+        mesh.detail);
+  visit(Field{.key = "seed", .sentence = "Draws the relief's bumps.", .low = 0}, mesh.seed);
+  visit(Field{.key = "unit", .sentence = "The unit of the file's coordinates: m, mm, cm, km, inch or foot."},
+        mesh.unit);
+  visit(
+      Field{.key = "up",
+            .sentence = "The file's axis that points up. \"z\": coordinates as they stand. \"y\": the file's "
+                        "(x, y, z) becomes (x, -z, y)."},
+      mesh.up);
+  visit(Field{.key = "world_from_object",
+              .unit = "m",
+              .sentence = "3×4 rows [A, t] of any affine map that is not singular, after `unit` and `up`. "
+                          "Absent: scale, rotate_deg and translate.",
+              .low = -farthest_m,
+              .high = farthest_m},
+        mesh.world_from_object);
+  visit(Field{.key = "scale",
+              .sentence = "Enlarges the mesh about its origin, after `unit` and `up`.",
+              .low = 0,
+              .high = farthest_m,
+              .low_excluded = true},
+        mesh.scale);
+  visit(Field{.key = "rotate_deg",
+              .unit = "deg",
+              .sentence = "Then turns it about the world's x axis, then y, then z (counter-clockwise as seen "
+                          "from the axis's tip).",
+              .low = -36000,
+              .high = 36000},
+        mesh.rotate_deg);
+  visit(Field{.key = "translate",
+              .unit = "m",
+              .sentence = "Then moves it.",
+              .low = -farthest_m,
+              .high = farthest_m},
+        mesh.translate);
+  visit(Field{.key = "albedo", .sentence = "Reflected over incident light.", .low = 0, .high = 1},
+        mesh.albedo);
+  visit(Field{.key = "albedo_map",
+              .sentence = "A picture that multiplies `albedo`, through the mesh's texture coordinates; "
+                          "relative to the scene file."},
+        mesh.albedo_map);
+  visit(Field{.key = "albedo_map_encoding",
+              .sentence = "What the integers of an 8- or 16-bit picture mean; float pictures are linear."},
+        mesh.albedo_map_encoding);
+}
+
+template <class Visitor>
+void describe_intrinsics(Visitor& visit, DeviceSpec& device) {
+  visit(Field{.key = "size",
+              .unit = "px",
+              .sentence = "Width and height of the picture. Required, but with cameramodel.",
+              .low = 1,
+              .high = 16384},
+        device.size);
+  const Field focal{.key = "", .unit = "px", .low = 0, .high = 1e8, .low_excluded = true};
+  Field fx = focal, fy = focal;
+  fx.key = "fx", fx.sentence = "Focal length over pixel width: u = fx·x/z + cx.";
+  fy.key = "fy", fy.sentence = "Focal length over pixel height: v = fy·y/z + cy. Absent: fx.";
+  visit(fx, device.fx);
+  visit(fy, device.fy);
+  const Field centre{.key = "", .unit = "px", .low = -1e8, .high = 1e8};
+  Field cx = centre, cy = centre;
+  cx.key = "cx";
+  cx.sentence =
+      "Principal point, u; the centre of the first pixel is 0; may lie outside the picture. Absent, with fx: "
+      "the "
+      "picture's centre, (W-1)/2.";
+  cy.key = "cy", cy.sentence = "Principal point, v, downwards. Absent, with fx: (H-1)/2.";
+  visit(cx, device.cx);
+  visit(cy, device.cy);
+  visit(Field{.key = "throw_ratio",
+              .sentence = "Instead of fx: distance over picture width; fx = fy = throw_ratio·W.",
+              .low = 0,
+              .high = 1e4,
+              .low_excluded = true},
+        device.throw_ratio);
+  visit(Field{.key = "lens_shift",
+              .sentence = "With throw_ratio: the fractions of the picture's width and height by which it is "
+                          "moved left and up; cx = (W-1)/2 + shift·W, cy likewise. Absent: none.",
+              .low = -100,
+              .high = 100},
+        device.lens_shift);
+  const Field angle{.key = "", .unit = "deg", .low = 0, .high = 179.9, .low_excluded = true};
+  Field fov_y = angle, fov_x = angle;
+  fov_y.key = "fov_y_deg", fov_y.sentence = "Instead of fx: the full vertical angle of view.";
+  fov_x.key = "fov_x_deg", fov_x.sentence = "Instead of fx: the full horizontal angle of view.";
+  visit(fov_y, device.fov_y_deg);
+  visit(fov_x, device.fov_x_deg);
+  visit(Field{.key = "aspect",
+              .sentence = "With an angle of view: width over height of the picture. Absent: W/H.",
+              .low = 0,
+              .high = 1e4,
+              .low_excluded = true},
+        device.aspect);
+  visit(Field{.key = "cameramodel",
+              .sentence = "Instead of size, intrinsics, placement and lens: a .cameramodel file of mrcal, "
+                          "relative to the scene file."},
+        device.cameramodel);
+}
+
+template <class Visitor>
+void describe_placement(Visitor& visit, DeviceSpec& device) {
+  const Field metres{.key = "", .unit = "m", .low = -farthest_m, .high = farthest_m};
+  const auto point = [&](const char* key, const char* sentence, auto& value) {
+    Field field = metres;
+    field.key = key, field.sentence = sentence;
+    visit(field, value);
+  };
+  point("device_from_world",
+        "3×4 rows [R, t] of a rotation and a translation: x_device = R·x_world + t, with x right, y down, z "
+        "forward.",
+        device.device_from_world);
+  point("position", "Instead: where the device stands in the world,", device.position);
+  point("look_at", "the world point that its axis goes through,", device.look_at);
+  point("up", "and the world direction that its picture shows upwards. Absent: [0, 0, 1].", device.up);
+  visit(Field{.key = "rotation_vector_rad",
+              .unit = "rad",
+              .sentence = "Instead: the rotation of device_from_world as axis times angle (OpenCV's rvec),",
+              .low = -1000,
+              .high = 1000},
+        device.rotation_vector_rad);
+  visit(Field{.key = "quaternion_wxyz",
+              .sentence = "or as a quaternion of any length,",
+              .low = -1e6,
+              .high = 1e6},
+        device.quaternion_wxyz);
+  point("translation", "and the translation t of device_from_world, with either of the two.",
+        device.translation);
+}
+
+template <class Visitor>
+void describe(Visitor& visit, DeviceSpec& device) {
+  visit(Field{.key = "name",
+              .sentence = "Unique among all devices. Absent: projector or camera, numbered from 1 "
+                          "where there are several."},
+        device.name);
+  describe_intrinsics(visit, device);
+  describe_placement(visit, device);
+  visit(Field{.key = "lens", .sentence = "Distortion: a warp after the divide."}, device.lens);
+  visit(Field{.key = "near",
+              .unit = "m",
+              .sentence = "Axial depth where a projector's light begins. Absent: no such plane.",
+              .low = 0,
+              .high = farthest_m,
+              .low_excluded = true},
+        device.near_m);
+  visit(Field{.key = "far",
+              .unit = "m",
+              .sentence = "Axial depth where a projector's light ends; near < far. Absent: no such plane.",
+              .low = 0,
+              .high = farthest_m,
+              .low_excluded = true},
+        device.far_m);
+}
+
+template <class Visitor>
+void describe(Visitor& visit, ProjectorSpec& projector) {
+  describe(visit, projector.device);
+  visit(Field{.key = "flux_lm",
+              .unit = "lm",
+              .sentence = "Luminous flux of the all-white picture, shared evenly by its pixels.",
+              .low = 0,
+              .high = 1e9,
+              .low_excluded = true},
+        projector.flux_lm);
+  visit(Field{.key = "lookup", .sentence = "nearest: a pixel is a box. bilinear: a tent."}, projector.lookup);
+  visit(Field{.key = "border", .sentence = "Beyond the picture's edge: no light, or the edge pixel's."},
+        projector.border);
+}
+
+template <class Visitor>
+void describe(Visitor& visit, CameraSpec& camera) {
+  describe(visit, camera.device);
+  visit(Field{.key = "sensor", .sentence = "How light becomes digital numbers."}, camera.sensor);
+}
+
+template <class Visitor>
+void describe(Visitor& visit, PatternsSpec& patterns) {
+  visit(
+      Field{.key = "kind", .sentence = "White, black, then Gray code columns and rows with their inverses."},
+      patterns.kind);
+}
+
+template <class Visitor>
+void describe(Visitor& visit, SceneSpec& scene) {
+  visit(Field{.key = "name", .sentence = "What reports call the scene."}, scene.name);
+  visit(Field{.key = "ambient_lx",
+              .unit = "lx",
+              .sentence = "Uniform illuminance on every surface, from everywhere.",
+              .low = 0,
+              .high = 1e9},
+        scene.ambient_lx);
+  visit(Field{.key = "patterns", .sentence = "What the projectors show."}, scene.patterns);
+  visit(Field{.key = "mesh", .sentence = "A surface; at least one."}, scene.meshes);
+  visit(Field{.key = "projector", .sentence = "A device that emits."}, scene.projectors);
+  visit(Field{.key = "camera", .sentence = "A device that measures."}, scene.cameras);
+}
+
+}  // namespace laterna

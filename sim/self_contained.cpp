@@ -1,0 +1,61 @@
+#include "sim/self_contained.h"
+
+#include "sim/error.h"
+#include "sim/ply.h"
+#include "sim/safe_write.h"
+#include "sim/scene_build.h"
+#include "sim/scene_file.h"
+#include "sim/text_file.h"
+
+#include <fmt/format.h>
+
+namespace laterna {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t most_bytes = std::size_t(1) << 32;
+
+/// Writes `bytes` under target/subfolder/name and gives the path from `target`.
+std::string put(const fs::path& target, const char* subfolder, const std::string& name,
+                const std::string& bytes) {
+  std::error_code error;
+  fs::create_directories(target / subfolder, error);
+  if (error)
+    throw InputError(fmt::format("{}: cannot be made: {}", (target / subfolder).string(), error.message()));
+  write_file(target / subfolder / name, bytes);
+  return std::string(subfolder) + "/" + name;
+}
+
+void copy_cameramodel(DeviceSpec& device, const char* kind, std::size_t index, const fs::path& folder,
+                      const fs::path& target) {
+  if (device.cameramodel.empty()) return;
+  device.cameramodel = put(target, "cameramodels", fmt::format("{}{}.cameramodel", kind, index + 1),
+                           read_text(folder / device.cameramodel, most_bytes));
+}
+
+}  // namespace
+
+SceneSpec write_self_contained(const SceneSpec& spec, const Scene& scene, const fs::path& folder,
+                               const fs::path& target) {
+  SceneSpec copy = with_names(spec);
+  for (std::size_t i = 0; i < copy.meshes.size(); ++i) {
+    MeshSpec& mesh = copy.meshes[i];
+    if (!mesh.file.empty())
+      mesh.file =
+          put(target, "meshes", fmt::format("mesh{}.ply", i + 1), ply_bytes(scene.objects.at(i).mesh));
+    if (mesh.albedo_map.empty()) continue;
+    const fs::path map = folder / mesh.albedo_map;
+    mesh.albedo_map = put(target, "maps", fmt::format("map{}{}", i + 1, map.extension().string()),
+                          read_text(map, most_bytes));
+  }
+  for (std::size_t i = 0; i < copy.projectors.size(); ++i)
+    copy_cameramodel(copy.projectors[i].device, "projector", i, folder, target);
+  for (std::size_t i = 0; i < copy.cameras.size(); ++i)
+    copy_cameramodel(copy.cameras[i].device, "camera", i, folder, target);
+  write_file(target / "scene.toml", scene_toml(copy));
+  return copy;
+}
+
+}  // namespace laterna
