@@ -94,6 +94,7 @@ void RayScene::Embree::add(unsigned id, const std::vector<glm::dvec3>& world, co
 
 RayScene::RayScene(const Scene& scene) : embree_(std::make_unique<Embree>()), center_world_(0.0) {
   std::vector<std::vector<glm::dvec3>> world;
+  world.reserve(scene.objects.size());
   for (const Object& object : scene.objects) world.push_back(world_positions(object));
   center_world_ = middle(world);
   for (const Object& object : scene.objects)

@@ -94,7 +94,8 @@ void quantise(const Block& b, const Play& play, const Value* values, ImageStack<
     for (int i = 0; noise && i < block; ++i) level[i] += noise[i];
     for (int i = 0; i < block; ++i) {
       const float above = level[i] > 0 ? level[i] : 0;
-      row[i] = Number(int((above < full_scale ? above : full_scale) + 0.5f));
+      const float half_up = (above < full_scale ? above : full_scale) + 0.5f;
+      row[i] = Number(int(half_up));
     }
     std::copy_n(row, b.pixels, out.picture(k).data() + b.first);
   }
