@@ -115,7 +115,7 @@ TEST(CaptureStack, ASphereEqualsItsClosedForm) {
   const Scene scene =
       scene_of({object_of(sphere(1, 240))}, device_at({0.3, 0.2, 4}, {0, 0, 0}, {160, 160}, 300),
                device_at({-1.5, 0.5, 4}, {0, 0, 0}, {100, 100}, 180));
-  const double saturation = 100;
+  const double saturation = 250;
   const auto stack = std::get<ImageStack<std::uint8_t>>(
       capture(scene, constant_pattern({100, 100}, 1, 255), {8, saturation, 0, {}}));
   int compared = 0, brightest = 0;
@@ -123,7 +123,7 @@ TEST(CaptureStack, ASphereEqualsItsClosedForm) {
     const glm::dvec3 ray = glm::normalize(camera.ray(p % 160, p / 160));
     const double b = glm::dot(camera.position, ray),
                  root = b * b - glm::dot(camera.position, camera.position) + 1;
-    if (root < 0.02) continue;  // the silhouette: rays within 8° of grazing
+    if (root < 0.003) continue;  // the silhouette: rays within 3° of grazing
     const glm::dvec3 x = camera.position + (-b - std::sqrt(root)) * ray;
     const double facing = glm::dot(x, glm::normalize(projector.position - x));
     if (std::abs(facing) < 0.02) continue;  // where the light begins
@@ -131,11 +131,11 @@ TEST(CaptureStack, ASphereEqualsItsClosedForm) {
         facing > 0 ? 255 / saturation * 0.8 / std::numbers::pi * projector.illuminance(x, x) : 0;
     ++compared;
     brightest = std::max<int>(brightest, stack.values[p]);
-    // Rounding, and 241 bands of flat triangles: their normals turn by up to 0.5°.
+    // Rounding, 0.5; and 241 bands of flat triangles, whose normals are up to 0.5° off: 0.009·50.
     ASSERT_NEAR(stack.values[p], expected, 1) << p % 160 << ", " << p / 160;
   }
   EXPECT_GT(compared, 15000);
-  EXPECT_GT(brightest, 60);
+  EXPECT_GT(brightest, 30);
 }
 
 TEST(CaptureStack, BilinearEqualsItsClosedFormAndNothingLeaksPastTheEdge) {
