@@ -123,9 +123,7 @@ double noise_dn(const ImageStack<T>& stack, double min_white_minus_black) {
 }
 
 /// How many of the stack's DN are one DN of 8 bits.
-double dn_per_8bit_dn(const ImageStack<std::uint8_t>&) {
-  return 1;
-}
+double dn_per_8bit_dn(const ImageStack<std::uint8_t>&) { return 1; }
 double dn_per_8bit_dn(const ImageStack<std::uint16_t>& stack) {
   const std::span<const std::uint16_t> white = stack.picture(stack.count - 2);
   const int bits =

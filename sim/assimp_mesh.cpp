@@ -7,12 +7,16 @@
 #include <assimp/scene.h>
 #include <fmt/format.h>
 
+#include <assimp/DefaultLogger.hpp>
 #include <assimp/Importer.hpp>
+#include <assimp/LogStream.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <mutex>
+#include <string_view>
 
 namespace laterna {
 
@@ -90,17 +94,60 @@ Mesh merge(const aiScene& scene, const glm::dmat4& file_from_root, const std::st
   return mesh;
 }
 
+/// Keeps the first complaint of Assimp's log that tells of damage which Assimp repairs by guessing: an index
+/// out of range (OFF: clamped) or an early end (ascii STL, IFC).
+class DamageLog : public Assimp::LogStream {
+ public:
+  void write(const char* message) override {
+    const std::string_view text(message);
+    const bool is_damage = text.find("out of range") != text.npos || text.find("unexpected EOF") != text.npos;
+    if (is_damage && complaint.empty()) complaint = text.substr(0, text.find('\n'));
+  }
+  std::string complaint;
+};
+
+/// Attaches a log stream while it lives. Assimp has one logger for the whole program, so one reader at a
+/// time.
+class Listening {
+ public:
+  explicit Listening(Assimp::LogStream& stream) : lock_(mutex()), stream_(stream) {
+    if (owns_logger_) Assimp::DefaultLogger::create("", Assimp::Logger::NORMAL, 0);
+    Assimp::DefaultLogger::get()->attachStream(&stream_, severity);
+  }
+  ~Listening() {
+    Assimp::DefaultLogger::get()->detachStream(&stream_, severity);
+    if (owns_logger_) Assimp::DefaultLogger::kill();
+  }
+  Listening(const Listening&) = delete;
+  Listening& operator=(const Listening&) = delete;
+
+ private:
+  static constexpr unsigned severity = Assimp::Logger::Err | Assimp::Logger::Warn;
+  static std::mutex& mutex() {
+    static std::mutex instance;
+    return instance;
+  }
+  std::lock_guard<std::mutex> lock_;
+  Assimp::LogStream& stream_;
+  bool owns_logger_ = Assimp::DefaultLogger::isNullLogger();
+};
+
 using Read = std::function<const aiScene*(Assimp::Importer&)>;
 
 Mesh read_scene(const Read& read, const std::string& extension, const std::string& name) {
   Assimp::Importer importer;
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
+  DamageLog damage;
+  const Listening listening(damage);
   const aiScene* scene = read(importer);
   if (!scene || !scene->mRootNode) {
     std::string reason = importer.GetErrorString();
     std::replace(reason.begin(), reason.end(), '\n', ' ');
     throw InputError(fmt::format("{}: cannot be read as {}: {}", name, extension, reason));
   }
+  if (!damage.complaint.empty())
+    throw InputError(
+        fmt::format("{}: the file is damaged, its {} reader says: {}", name, extension, damage.complaint));
   expect_indices_in_range(*scene, name);
   scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
   if (!scene)

@@ -15,15 +15,9 @@ namespace laterna {
 std::string toml_text(double value);
 /// A basic string, quoted and escaped.
 std::string toml_text(const std::string& value);
-inline std::string toml_text(bool value) {
-  return value ? "true" : "false";
-}
-inline std::string toml_text(int value) {
-  return std::to_string(value);
-}
-inline std::string toml_text(std::uint64_t value) {
-  return std::to_string(value);
-}
+inline std::string toml_text(bool value) { return value ? "true" : "false"; }
+inline std::string toml_text(int value) { return std::to_string(value); }
+inline std::string toml_text(std::uint64_t value) { return std::to_string(value); }
 
 inline std::string toml_text(const std::array<double, 4>& value);
 
@@ -44,9 +38,7 @@ inline std::string toml_text(const std::vector<double>& value) {
 inline std::string toml_text(const std::array<double, 4>& value) {
   return toml_list(value.data(), value.size());
 }
-inline std::string toml_text(const Matrix3x4& value) {
-  return toml_list(value.data(), value.size());
-}
+inline std::string toml_text(const Matrix3x4& value) { return toml_list(value.data(), value.size()); }
 template <Named T>
 std::string toml_text(T value) {
   return toml_text(std::string(names_of(value)[std::size_t(value)]));

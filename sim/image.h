@@ -27,6 +27,7 @@ struct Image {
 /// A stack of equally large one-channel pictures, one after the other in memory.
 template <class T>
 struct ImageStack {
+  using value_type = T;
   int width = 0, height = 0, count = 0;
   std::vector<T> values;
 

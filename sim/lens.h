@@ -21,9 +21,7 @@ struct Lens {
   bool operator==(const Lens&) const = default;
 };
 
-inline bool is_pinhole(const Lens& lens) {
-  return lens.model == "LENSMODEL_PINHOLE";
-}
+inline bool is_pinhole(const Lens& lens) { return lens.model == "LENSMODEL_PINHOLE"; }
 
 /// How many parameters follow fx, fy, cx, cy. Throws InputError, naming the accepted models, for an unknown
 /// one. Accepted: PINHOLE, STEREOGRAPHIC, OPENCV4, 5, 8, 12, CAHVOR and SPLINED_STEREOGRAPHIC_... (each with

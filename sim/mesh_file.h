@@ -35,9 +35,9 @@ namespace laterna {
 /// as floats: 24 bits, some 1e-7 of the distance from the origin of each part. PLY has no such loss.
 ///
 /// Throws InputError, beginning with the path, where there is no such file, it cannot be read, its ending is
-/// not known, its gzip stream is broken, its reader refuses it, an IFC file lacks its last line, or
-/// validate() refuses the mesh. Assimp itself takes some files that were cut short as fine (ascii STL, OBJ):
-/// what is then left is read.
+/// not known, its gzip stream is broken, its reader refuses it or warns of an early end or of an index out of
+/// range, an IFC file lacks its last line, or validate() refuses the mesh. An OBJ file that was cut short
+/// between two lines cannot be told from a whole one.
 Mesh read_mesh(const std::filesystem::path& path);
 
 /// Metres in one `unit`: "m", "mm", "cm", "km", "inch" (0.0254) or "foot" (0.3048, the international one).

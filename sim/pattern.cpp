@@ -22,9 +22,7 @@ bool is_lit(const GrayPicture& picture, int x, int y) {
   return bit != picture.inverse;
 }
 
-std::uint8_t value_of(bool lit) {
-  return lit ? 255 : 0;
-}
+std::uint8_t value_of(bool lit) { return lit ? 255 : 0; }
 
 std::vector<GrayPicture> all_pictures(const GraySequence& sequence) {
   std::vector<GrayPicture> pictures;

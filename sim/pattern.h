@@ -25,15 +25,9 @@ struct GraySequence {
 void validate(const GraySequence& sequence);
 
 /// How many bits tell `size` columns or rows apart: ceil(log2 size), 0 for a size of 1.
-inline int gray_bits(int size) {
-  return std::bit_width(static_cast<std::uint32_t>(size - 1));
-}
-inline int column_bits(const GraySequence& sequence) {
-  return gray_bits(sequence.projector_size.x);
-}
-inline int row_bits(const GraySequence& sequence) {
-  return gray_bits(sequence.projector_size.y);
-}
+inline int gray_bits(int size) { return std::bit_width(static_cast<std::uint32_t>(size - 1)); }
+inline int column_bits(const GraySequence& sequence) { return gray_bits(sequence.projector_size.x); }
+inline int row_bits(const GraySequence& sequence) { return gray_bits(sequence.projector_size.y); }
 
 /// How many pictures the sequence has: 2·column_bits + 2·row_bits + 2.
 inline int picture_count(const GraySequence& sequence) {
@@ -41,9 +35,7 @@ inline int picture_count(const GraySequence& sequence) {
 }
 
 /// The reflected binary code, in which neighbours differ in one bit: binary ^ (binary >> 1).
-constexpr std::uint32_t gray_from_binary(std::uint32_t binary) {
-  return binary ^ (binary >> 1);
-}
+constexpr std::uint32_t gray_from_binary(std::uint32_t binary) { return binary ^ (binary >> 1); }
 
 /// The inverse of gray_from_binary: bit k of the result is the exclusive or of all bits ≥ k of the code.
 constexpr std::uint32_t binary_from_gray(std::uint32_t gray) {

@@ -21,7 +21,7 @@ using ply::Property;
 
 template <class Body>
 std::uint64_t list_count(Body& body, const Property& list) {
-  const std::int64_t count = body.integer(*list.count_type);
+  const std::int64_t count = body.integer(list.count_type.value_or(ply::Type::uint8));
   if (count < 0) body.fail(fmt::format("the list `{}` has {} entries, expected 0 or more", list.name, count));
   return std::uint64_t(count);
 }

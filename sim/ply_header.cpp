@@ -175,7 +175,7 @@ std::size_t size_in_bytes(Type type) {
 }
 
 Header read_header(std::string_view bytes, const std::string& name) {
-  const Header header = HeaderReader(bytes, name).read();
+  Header header = HeaderReader(bytes, name).read();
   expect_room(header, bytes.size(), name);
   return header;
 }

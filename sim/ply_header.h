@@ -14,9 +14,7 @@ enum class Encoding { ascii, little_endian, big_endian };
 enum class Type { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
 
 std::size_t size_in_bytes(Type type);
-inline bool is_integer(Type type) {
-  return type < Type::float32;
-}
+inline bool is_integer(Type type) { return type < Type::float32; }
 
 struct Property {
   std::string name;

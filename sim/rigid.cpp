@@ -17,9 +17,7 @@ Rigid inverse(const Rigid& b_from_a) {
   return {a_from_b, -(a_from_b * b_from_a.translation)};
 }
 
-glm::dvec3 center_in_world(const Rigid& device_from_world) {
-  return inverse(device_from_world).translation;
-}
+glm::dvec3 center_in_world(const Rigid& device_from_world) { return inverse(device_from_world).translation; }
 
 glm::dmat4 matrix_of(const Rigid& b_from_a) {
   glm::dmat4 m(b_from_a.rotation);

@@ -26,13 +26,9 @@ namespace {
   throw InputError(fmt::format("{}: cannot be written: {}", path.string(), reason));
 }
 
-std::string reason_of(int error) {
-  return std::generic_category().message(error);
-}
+std::string reason_of(int error) { return std::generic_category().message(error); }
 
-std::string partial_prefix(const fs::path& path) {
-  return "." + path.filename().string() + ".partial-";
-}
+std::string partial_prefix(const fs::path& path) { return "." + path.filename().string() + ".partial-"; }
 
 fs::path partial_path(const fs::path& path) {
   return path.parent_path() / (partial_prefix(path) + std::to_string(::getpid()));
@@ -76,9 +72,7 @@ void sync_folder(const fs::path& folder) {
   ::close(descriptor);
 }
 
-bool is_alive(pid_t process) {
-  return ::kill(process, 0) == 0 || errno == EPERM;
-}
+bool is_alive(pid_t process) { return ::kill(process, 0) == 0 || errno == EPERM; }
 
 /// True for a partial folder of `final_path` that nobody is filling any more.
 bool is_stale(const fs::path& entry, const fs::path& final_path) {

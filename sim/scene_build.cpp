@@ -156,13 +156,9 @@ void check(const MeshSpec& mesh) {
   });
 }
 
-void check(const ProjectorSpec& projector) {
-  check_device(projector.device, "projector");
-}
+void check(const ProjectorSpec& projector) { check_device(projector.device, "projector"); }
 
-void check(const CameraSpec& camera) {
-  check_device(camera.device, "camera");
-}
+void check(const CameraSpec& camera) { check_device(camera.device, "camera"); }
 
 void check(const SceneSpec& scene) {
   if (scene.meshes.empty()) throw InputError("there is no [[mesh]], expected at least one");

@@ -28,8 +28,8 @@ std::string read_text(const std::filesystem::path& path, std::size_t most_bytes)
     text.append(part, std::size_t(file.gcount()));
   if (file.bad()) throw InputError(fmt::format("{}: cannot be read", path.string()));
   if (text.size() > most_bytes) {
-    throw InputError(fmt::format("{}: it holds more than {} bytes, expected at most that", path.string(),
-                                 most_bytes));
+    throw InputError(
+        fmt::format("{}: it holds more than {} bytes, expected at most that", path.string(), most_bytes));
   }
   return text;
 }
@@ -40,7 +40,8 @@ void check_text(std::string_view text, const std::string& file_name) {
   for (const char* at = text.data(); at != text.data() + text.size();) {
     const boost::locale::utf::code_point c = Utf8::decode(at, text.data() + text.size());
     if (c == boost::locale::utf::illegal || c == boost::locale::utf::incomplete) {
-      throw InputError(fmt::format("{}:{}: a byte sequence is no UTF-8, expected UTF-8 text", file_name, line));
+      throw InputError(
+          fmt::format("{}:{}: a byte sequence is no UTF-8, expected UTF-8 text", file_name, line));
     }
     const bool line_end = c == '\n' || (c == '\r' && at != text.data() + text.size() && *at == '\n');
     if ((c < 0x20 && c != '\t' && !line_end) || c == 0x7f) {

@@ -15,9 +15,7 @@ glm::dmat4 from_rows(const glm::dvec4& a, const glm::dvec4& b, const glm::dvec4&
   return glm::transpose(glm::dmat4(a, b, c, d));
 }
 
-glm::dvec4 row(const glm::dmat4& m, int i) {
-  return {m[0][i], m[1][i], m[2][i], m[3][i]};
-}
+glm::dvec4 row(const glm::dmat4& m, int i) { return {m[0][i], m[1][i], m[2][i], m[3][i]}; }
 
 }  // namespace
 

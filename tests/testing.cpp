@@ -23,9 +23,7 @@ std::uint64_t seed() {
   return hash;
 }
 
-std::mt19937_64 generator() {
-  return std::mt19937_64(seed());
-}
+std::mt19937_64 generator() { return std::mt19937_64(seed()); }
 
 ScratchFolder::ScratchFolder() {
   std::string name = test_name() + "-" + std::to_string(::getpid());

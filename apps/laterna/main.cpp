@@ -1,1 +1,77 @@
-int main() { return 0; }
+#include "apps/laterna/command.h"
+
+#include "sim/error.h"
+#include "sim/parallel.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+
+namespace laterna {
+
+CLI::App* add_command(CLI::App& app, const std::string& name, const std::string& example,
+                      const std::string& sentence) {
+  return app.add_subcommand(name, "Example: " + example + "\n\n" + sentence);
+}
+
+void progress(const Common& common, const std::string& line) {
+  if (!common.json) fmt::print(stderr, "{}\n", line);
+}
+
+std::array<int, 2> parse_size(const std::string& text, const char* option) {
+  std::array<int, 2> size{};
+  int used = 0;
+  if (std::sscanf(text.c_str(), "%dx%d%n", &size[0], &size[1], &used) != 2 || used != int(text.size())) {
+    throw InputError(fmt::format("{}: found \"{}\", expected WIDTHxHEIGHT such as 1920x1080", option, text));
+  }
+  return size;
+}
+
+namespace {
+
+int run(int argc, char** argv) {
+  Common common;
+  CLI::App app{
+      "Example: laterna new > scene.toml && laterna roundtrip scene.toml\n\n"
+      "Laterna casts calibration patterns from a simulated projector onto meshes, photographs them with a "
+      "simulated camera,\n"
+      "decodes the pictures, recovers the projector, and says how far its texture matrix is from the true "
+      "one."};
+  app.set_version_flag("--version", LATERNA_VERSION);
+  app.require_subcommand(1);
+  app.fallthrough();
+  app.add_option("--threads", common.threads, "Threads; 0: as many as the machine has")
+      ->check(CLI::Range(0, 4096));
+  app.add_option("--seed", common.seed, "Seed of everything random; the same seed gives the same bits");
+  app.add_flag("--json", common.json, "Prints JSON for machines on standard output, and nothing else there");
+  for (const auto add : {add_new, add_check, add_info, add_project, add_preview, add_patterns, add_capture,
+                         add_decode, add_calibrate, add_verify, add_roundtrip}) {
+    add(app, common);
+  }
+  app.parse_complete_callback([&] { set_thread_count(common.threads); });
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    const int code = app.exit(error);
+    return code == 0 ? exit_ok : exit_bad_input;
+  }
+  return common.exit_code;
+}
+
+}  // namespace
+}  // namespace laterna
+
+int main(int argc, char** argv) {
+  try {
+    return laterna::run(argc, argv);
+  } catch (const laterna::InputError& error) {
+    fmt::print(stderr, "laterna: {}\n", error.what());
+    return laterna::exit_bad_input;
+  } catch (const laterna::Refusal& error) {
+    fmt::print(stderr, "laterna: refused: {}\n", error.what());
+    return laterna::exit_refused;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "laterna: internal error: {}\n", error.what());
+    return laterna::exit_internal;
+  }
+}

@@ -101,9 +101,7 @@ TEST(FieldText, NumbersReadBackToTheSameBits) {
   EXPECT_EQ(toml_text(-0.0), "-0.0");
 }
 
-TEST(FieldText, StringsAreEscaped) {
-  EXPECT_EQ(toml_text(std::string("a\"b\\c\n")), R"("a\"b\\c\u000A")");
-}
+TEST(FieldText, StringsAreEscaped) { EXPECT_EQ(toml_text(std::string("a\"b\\c\n")), R"("a\"b\\c\u000A")"); }
 
 TEST(FieldText, OnlyWhatDiffersFromTheDefault) {
   Small small;

@@ -45,12 +45,8 @@ const char* const mesh_line = "[[mesh]]\nshape = \"plane\"\n";
 const char* const device_lines =
     "size = [640, 480]\nfx = 500\nposition = [0, 0, 2]\nlook_at = [0, 0, 0]\nup = [0, 1, 0]\n";
 
-std::string with_mesh(const std::string& lines) {
-  return "[[mesh]]\nshape = \"plane\"\n" + lines;
-}
-std::string with_device(const std::string& lines) {
-  return std::string(mesh_line) + "[[camera]]\n" + lines;
-}
+std::string with_mesh(const std::string& lines) { return "[[mesh]]\nshape = \"plane\"\n" + lines; }
+std::string with_device(const std::string& lines) { return std::string(mesh_line) + "[[camera]]\n" + lines; }
 std::string error_of(const std::string& text) {
   return testing::input_error([&] { parse_scene(text, "scene.toml"); });
 }

@@ -1,0 +1,43 @@
+// What the visibility stage costs beside the same rays through bare Embree calls.
+#pragma once
+
+#include "sim/scene.h"
+
+#include <string>
+
+namespace laterna {
+
+/// The scene that the figures are made on: a relief of about `triangles` triangles, a 1280×800 camera and a
+/// 1920×1080 projector that both look at it.
+Scene bench_scene(int triangles);
+
+/// Embree's way of taking rays.
+struct BareWay {
+  int width = 16;        ///< 8 or 16
+  bool coherent = true;  ///< RTC_INTERSECT_CONTEXT_FLAG_COHERENT
+  bool robust = false;   ///< RTC_SCENE_FLAG_ROBUST
+};
+std::string describe(const BareWay& way);
+
+/// Median seconds over `repeats`.
+struct VisibilityTimes {
+  double visibility =
+      0;  ///< trace_surface and trace_light: camera rays, hits refined in double, projection, shadow
+  double surface = 0, light = 0;  ///< its two halves
+  double bare = 0;   ///< the same camera rays and the same shadow rays, ready in memory, and nothing else
+  double rays = 0;   ///< how many: camera rays and shadow rays
+  double ratio = 0;  ///< median of visibility/bare within each repeat
+};
+
+/// Times both in turn, in the same run, with the threads that are set.
+VisibilityTimes visibility_over_embree(const Scene& scene, const BareWay& way, int repeats);
+
+/// Seconds for each stage of a capture, medians over `repeats`; `bilinear` and `noise_sigma_dn` choose the
+/// replay's kind.
+struct CaptureTimes {
+  double build = 0, rays = 0, surface = 0, light = 0, replay = 0;
+  int pictures = 0;
+};
+CaptureTimes time_capture(const Scene& scene, bool bilinear, double noise_sigma_dn, int repeats);
+
+}  // namespace laterna

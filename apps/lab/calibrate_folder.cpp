@@ -1,0 +1,85 @@
+#include "apps/lab/calibrate_folder.h"
+
+#include "apps/lab/trial.h"
+#include "render/ray_scene.h"
+#include "sim/error.h"
+
+#include <fmt/format.h>
+
+#include <map>
+
+namespace laterna {
+
+namespace {
+
+int camera_index(const Scene& scene, const CaptureSequence& sequence, const DecodedMap& map) {
+  for (int c = 0; c < int(scene.cameras.size()); ++c) {
+    const Device& device = scene.cameras[c].device;
+    if (device.name != sequence.camera && scene.cameras.size() > 1) continue;
+    if (device.intrinsics.size != glm::ivec2(map.width, map.height)) {
+      throw InputError(fmt::format("pictures of \"{}\" are {} × {} px, expected the camera's {} × {}",
+                                   sequence.camera, map.width, map.height, device.intrinsics.size.x,
+                                   device.intrinsics.size.y));
+    }
+    return c;
+  }
+  throw InputError(fmt::format("the scene has no camera \"{}\", which the pictures name", sequence.camera));
+}
+
+// The lens model that the scene names for this projector; pinhole where it names none.
+std::string lens_model(const Scene& scene, const std::string& projector) {
+  for (const Projector& p : scene.projectors) {
+    if (p.device.name == projector || scene.projectors.size() == 1) return p.device.lens.model;
+  }
+  return Lens{}.model;
+}
+
+struct Collected {
+  glm::ivec2 size{0, 0};
+  Correspondences correspondences;
+};
+
+}  // namespace
+
+std::vector<FolderEstimate> calibrate_folder(const std::filesystem::path& folder,
+                                             const CaptureManifest& manifest, const Scene& scene,
+                                             const SolveOptions& solve_options,
+                                             const GrayDecodeOptions& decode_options,
+                                             const Progress& progress) {
+  const RayScene rays(scene);
+  std::map<int, PixelArray<glm::dvec3>> points;
+  std::map<std::string, Collected> projectors;
+  for (const CaptureSequence& sequence : manifest.sequences) {
+    if (progress)
+      progress(fmt::format("decoding {} pictures of \"{}\" by \"{}\"", sequence.pictures.size(),
+                           sequence.projector, sequence.camera));
+    const DecodedMap map = decode_sequence(folder, sequence, decode_options).map;
+    const int camera = camera_index(scene, sequence, map);
+    if (!points.contains(camera)) {
+      points.emplace(camera, points_world(trace_surface(rays, scene, scene.cameras[camera]), scene));
+    }
+    Collected& collected = projectors[sequence.projector];
+    collected.size = sequence.projector_size;
+    append_correspondences(map, points.at(camera), camera, TrialOptions{}.block_px,
+                           collected.correspondences);
+  }
+  std::vector<FolderEstimate> estimates;
+  for (const auto& [name, collected] : projectors) {
+    FolderEstimate estimate{name, collected.correspondences.world_points.size(), {}};
+    if (progress)
+      progress(fmt::format("solving for \"{}\" from {} correspondences", name, estimate.correspondences));
+    SolveOptions options = solve_options;
+    options.lens_model = lens_model(scene, name);
+    if (estimate.correspondences == 0) {
+      estimate.solve.reason =
+          "no overlap: no camera pixel sees light of this projector that could be decoded";
+    } else {
+      estimate.solve = solve(collected.correspondences, collected.size, options);
+    }
+    estimate.solve.estimate.name = name;
+    estimates.push_back(std::move(estimate));
+  }
+  return estimates;
+}
+
+}  // namespace laterna

@@ -1,0 +1,32 @@
+// Pictures and a known scene to projectors: the same for simulated captures and for pictures of a real
+// projector.
+#pragma once
+
+#include "apps/lab/decode_folder.h"
+#include "apps/lab/simulation.h"
+#include "calib/solve.h"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace laterna {
+
+/// One projector, from every sequence that shows it.
+struct FolderEstimate {
+  std::string projector;
+  std::size_t correspondences = 0;
+  SolveResult solve;
+};
+
+/// Decodes the sequences of a manifest, takes the world point of each camera pixel from the scene's meshes
+/// and cameras (believed to be right), and solves for each projector named in the manifest. Of the scene's
+/// projectors only the lens model is used, never figures or placement. Throws InputError where a sequence
+/// names a camera that the scene has not, or whose pictures have another size.
+std::vector<FolderEstimate> calibrate_folder(const std::filesystem::path& folder,
+                                             const CaptureManifest& manifest, const Scene& scene,
+                                             const SolveOptions& solve_options,
+                                             const GrayDecodeOptions& decode_options,
+                                             const Progress& progress = {});
+
+}  // namespace laterna

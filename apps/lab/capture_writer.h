@@ -1,0 +1,29 @@
+// Pictures to disk: a whole capture in one folder, self-contained, there only when complete.
+#pragma once
+
+#include "apps/lab/simulation.h"
+#include "sim/scene_spec.h"
+
+#include <filesystem>
+
+namespace laterna {
+
+struct CaptureOptions {
+  std::uint64_t seed = 1;
+  std::string format = "png";  ///< png, tif or pgm
+  bool truth = true;           ///< per camera pixel, as multi-layer EXR in single precision
+};
+
+/// Captures every view of a scene into the new folder `target` (sim/capture_folder.h describes it). `folder`
+/// is where the scene file stands. Throws InputError where `target` exists or cannot be written; then nothing
+/// is left behind.
+void write_capture(const SceneSpec& spec, const Scene& scene, const std::filesystem::path& folder,
+                   const std::filesystem::path& target, const CaptureOptions& options, StageTimes& times,
+                   const Progress& progress = {});
+
+/// The truth of one view, one layer each, float: projector.u, projector.v (px, NaN where the point is behind
+/// the projector or nothing is seen), projector.lit (1 or 0), depth.m (axial, NaN where nothing is seen),
+/// normal.x, .y, .z (world), world.x, .y, .z (m), object.id (-1: none).
+void write_truth(const std::filesystem::path& path, const Traced& traced, const View& view);
+
+}  // namespace laterna

@@ -1,0 +1,56 @@
+#include "apps/lab/decode_folder.h"
+
+#include "sim/error.h"
+#include "sim/image_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace laterna {
+
+CaptureManifest manifest_or_pictures(const std::filesystem::path& folder,
+                                     std::optional<glm::ivec2> projector_size) {
+  if (std::filesystem::exists(folder / "manifest.json")) return read_manifest(folder);
+  if (!projector_size) {
+    throw InputError(fmt::format(
+        "{}: no manifest.json, expected a capture folder, or --projector-size for a folder of pictures",
+        folder.string()));
+  }
+  CaptureManifest manifest;
+  manifest.sequences.push_back(plain_sequence(folder, *projector_size));
+  return manifest;
+}
+
+DecodedSequence decode_sequence(const std::filesystem::path& folder, const CaptureSequence& sequence,
+                                const GrayDecodeOptions& options) {
+  if (sequence.patterns != "gray") {
+    throw InputError(
+        fmt::format("{}: found patterns \"{}\", expected \"gray\"", folder.string(), sequence.patterns));
+  }
+  try {
+    return {sequence, decode_gray(read_pictures(folder, sequence), sequence.projector_size, options)};
+  } catch (const InputError& error) {
+    const std::string message = error.what();
+    if (message.find(folder.string()) != std::string::npos) throw;
+    throw InputError(fmt::format("{}: {}", folder.string(), message));
+  }
+}
+
+void write_decoded(const std::filesystem::path& path, const DecodedMap& map) {
+  const std::vector<std::string> names{"projector.u", "projector.v", "sigma.px", "confidence", "valid"};
+  std::vector<float> data;
+  data.reserve(map.valid.values.size() * names.size());
+  for (std::size_t i = 0; i < map.valid.values.size(); ++i) {
+    data.insert(data.end(), {float(map.u_px.values[i]), float(map.v_px.values[i]), map.sigma_px.values[i],
+                             map.confidence.values[i], float(map.valid.values[i])});
+  }
+  write_picture(path, {data.data(), map.width, map.height, int(names.size()), PixelType::f32, names});
+}
+
+double valid_percent(const DecodedMap& map) {
+  const auto valid = std::count(map.valid.values.begin(), map.valid.values.end(), std::uint8_t{1});
+  return map.valid.values.empty() ? 0 : 100.0 * double(valid) / double(map.valid.values.size());
+}
+
+}  // namespace laterna

@@ -1,0 +1,123 @@
+#include "apps/lab/roundtrip_folder.h"
+
+#include "apps/lab/decode_folder.h"
+#include "apps/lab/summary_picture.h"
+#include "apps/lab/trial_report.h"
+#include "sim/pattern.h"
+#include "sim/safe_write.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <limits>
+#include <optional>
+
+namespace laterna {
+
+namespace {
+
+// What a view leaves for its picture once its pictures are dropped.
+struct Kept {
+  const View* view;
+  Image<float> white;
+  DecodedMap decoded;
+};
+
+Image<float> white_frame(const CapturedStack* pictures, const View& view, const GraySequence& sequence,
+                         int full_scale) {
+  Image<float> white(view.light.width, view.light.height);
+  if (!pictures) {
+    for (std::size_t i = 0; i < white.values.size(); ++i) white.values[i] = view.light.lit(i) ? 1.0f : 0.0f;
+    return white;
+  }
+  std::visit(
+      [&](const auto& stack) {
+        const auto picture = stack.picture(picture_count(sequence) - 2);
+        for (std::size_t i = 0; i < white.values.size(); ++i)
+          white.values[i] = float(picture[i]) / float(full_scale);
+      },
+      *pictures);
+  return white;
+}
+
+// The outcome's errors back on the pixels of one view: they stand in the order of lit pixels, view by view.
+Image<float> error_image(const Traced& traced, const View& view, const ProjectorOutcome& outcome) {
+  if (outcome.surface_error_px.empty()) return {};
+  Image<float> image(view.light.width, view.light.height, std::numeric_limits<float>::quiet_NaN());
+  std::size_t next = 0;
+  for (const View& other : traced.views) {
+    if (other.projector != view.projector) continue;
+    for (std::size_t i = 0; i < other.light.why.values.size(); ++i) {
+      if (!other.light.lit(i)) continue;
+      if (&other == &view) image.values[i] = outcome.surface_error_px[next];
+      ++next;
+    }
+  }
+  return image;
+}
+
+SummaryPanels panels_of(const Scene& scene, const std::string& scene_name, const Traced& traced,
+                        const Kept& kept, const ProjectorOutcome& outcome) {
+  SummaryPanels panels;
+  panels.title = fmt::format("{}: projector \"{}\" seen by \"{}\": {}", scene_name, outcome.name,
+                             scene.cameras[kept.view->camera].device.name, status_word(outcome.solve.status));
+  const Verification& v = outcome.verification;
+  if (outcome.solve.status != Status::refused) {
+    panels.lines.push_back(
+        fmt::format("error over the volume {:.4f} px rms (noise predicts {:.4f}), on the surface {:.4f} px "
+                    "(noise predicts {:.4f})",
+                    v.volume.rms, v.volume.predicted_rms, v.surface.rms, v.surface.predicted_rms));
+  }
+  if (!outcome.solve.reason.empty()) panels.lines.push_back(outcome.solve.reason);
+  panels.white = kept.white;
+  panels.decoded = &kept.decoded;
+  panels.projector_size = scene.projectors[outcome.projector].device.intrinsics.size;
+  panels.error_px = error_image(traced, *kept.view, outcome);
+  return panels;
+}
+
+void write_results(const Scene& scene, const std::string& scene_name, const Traced& traced,
+                   const std::vector<Kept>& kept, const std::filesystem::path& root, RoundtripOutput& out) {
+  std::vector<nlohmann::json> estimates;
+  for (const ProjectorOutcome& o : out.outcomes) estimates.push_back(estimate_json(o.name, o.solve));
+  for (const Kept& k : kept) {
+    const ProjectorOutcome& outcome = out.outcomes[k.view->projector];
+    const std::string stem = fmt::format("{}_{}", scene.cameras[k.view->camera].device.name, outcome.name);
+    out.files.push_back("summary_" + stem + ".png");
+    write_canvas(root / out.files.back(), summary_picture(panels_of(scene, scene_name, traced, k, outcome)));
+    write_decoded(root / ("decoded_" + stem + ".exr"), k.decoded);
+  }
+  for (const Kept& k : kept) {
+    out.files.push_back(fmt::format("decoded_{}_{}.exr", scene.cameras[k.view->camera].device.name,
+                                    out.outcomes[k.view->projector].name));
+  }
+  write_file(root / "estimate.json", estimates_text(estimates));
+  write_file(root / "result.json", trial_json(scene, out.outcomes, out.times).dump(2) + "\n");
+  out.files.insert(out.files.end(), {"estimate.json", "result.json"});
+}
+
+}  // namespace
+
+RoundtripOutput roundtrip(const Scene& scene, const std::string& scene_name,
+                          const std::filesystem::path& target, const TrialOptions& options,
+                          const Progress& progress) {
+  std::optional<PendingFolder> folder;
+  if (!target.empty()) folder.emplace(target);
+  RoundtripOutput out;
+  const Traced traced = trace(scene, out.times, progress);
+  std::vector<Kept> kept;
+  const auto keep = [&](const View& view, const CapturedStack* pictures, const DecodedMap& decoded) {
+    if (!folder) return;
+    const GraySequence sequence{scene.projectors[view.projector].device.intrinsics.size};
+    const int full_scale = (1 << scene.cameras[view.camera].sensor.bit_depth) - 1;
+    kept.push_back({&view, white_frame(pictures, view, sequence, full_scale), decoded});
+  };
+  out.outcomes = run_trial(scene, traced, options, out.times, keep, progress);
+  if (folder) {
+    out.times.measure("write", [&] { write_results(scene, scene_name, traced, kept, folder->path(), out); });
+    folder->commit();
+  }
+  return out;
+}
+
+}  // namespace laterna

@@ -1,0 +1,23 @@
+// A round trip with its results in a folder: numbers, estimate, and a picture worth looking at.
+#pragma once
+
+#include "apps/lab/trial.h"
+
+#include <filesystem>
+
+namespace laterna {
+
+struct RoundtripOutput {
+  std::vector<ProjectorOutcome> outcomes;
+  StageTimes times;
+  std::vector<std::string> files;  ///< written, relative to the folder; the one to look at first
+};
+
+/// Traces, runs the trial, and where `target` is not empty leaves there: summary_<camera>_<projector>.png for
+/// each view, result.json (trial_report.h), estimate.json, and the decoded maps as EXR. The folder must not
+/// exist; it is there only when complete. Throws InputError as trace() and PendingFolder do.
+RoundtripOutput roundtrip(const Scene& scene, const std::string& scene_name,
+                          const std::filesystem::path& target, const TrialOptions& options,
+                          const Progress& progress = {});
+
+}  // namespace laterna

@@ -1,0 +1,94 @@
+#include "apps/lab/simulation.h"
+
+#include "render/exposure.h"
+#include "render/replay.h"
+#include "sim/error.h"
+#include "sim/pattern.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace laterna {
+
+void StageTimes::add(const std::string& name, double seconds) {
+  for (Stage& stage : stages) {
+    if (stage.name == name) {
+      stage.seconds += seconds;
+      return;
+    }
+  }
+  stages.push_back({name, seconds});
+}
+
+double StageTimes::total() const {
+  double sum = 0;
+  for (const Stage& stage : stages) sum += stage.seconds;
+  return sum;
+}
+
+Traced trace(const Scene& scene, StageTimes& times, const Progress& progress) {
+  if (scene.projectors.empty()) throw InputError("the scene has no [[projector]], expected at least one");
+  if (scene.cameras.empty()) throw InputError("the scene has no [[camera]], expected at least one");
+  Traced traced{times.measure("build", [&] { return RayScene(scene); }), {}, {}, {}};
+  const RayScene& rays = traced.rays;
+  for (int c = 0; c < int(scene.cameras.size()); ++c) {
+    const Camera& camera = scene.cameras[c];
+    if (progress) {
+      progress(fmt::format("tracing {} × {} rays of \"{}\" and the light of {} projector(s)",
+                           camera.device.intrinsics.size.x, camera.device.intrinsics.size.y,
+                           camera.device.name, scene.projectors.size()));
+    }
+    traced.surfaces.push_back(times.measure("surface", [&] { return trace_surface(rays, scene, camera); }));
+    traced.points_world.push_back(
+        times.measure("surface", [&] { return points_world(traced.surfaces[c], scene); }));
+    for (int p = 0; p < int(scene.projectors.size()); ++p) {
+      View view{
+          c, p,
+          times.measure("light",
+                        [&] { return trace_light(rays, scene, traced.surfaces[c], scene.projectors[p]); }),
+          0};
+      view.saturation_cd_per_m2 =
+          camera.sensor.saturation_cd_per_m2
+              ? *camera.sensor.saturation_cd_per_m2
+              : automatic_saturation_cd_per_m2(traced.surfaces[c], {&view.light, 1}, scene.ambient_lx);
+      traced.views.push_back(std::move(view));
+    }
+  }
+  return traced;
+}
+
+CapturedStack capture_view(const Scene& scene, const Traced& traced, const View& view, std::uint64_t seed,
+                           StageTimes& times) {
+  const Projector& projector = scene.projectors[view.projector];
+  const Exposure exposure = make_exposure(
+      scene.cameras[view.camera].sensor, view.saturation_cd_per_m2,
+      {seed, static_cast<std::uint32_t>(view.camera), static_cast<std::uint32_t>(view.projector)});
+  const PatternStack patterns = times.measure(
+      "patterns", [&] { return make_pattern_stack(GraySequence{projector.device.intrinsics.size}); });
+  return times.measure("capture", [&] {
+    return capture_stack(traced.surfaces[view.camera], view.light, projector, patterns, scene.ambient_lx,
+                         exposure);
+  });
+}
+
+Overlap overlap(const Scene& scene, const Traced& traced, const View& view) {
+  constexpr int cell_px = 8;
+  const SurfaceMap& surface = traced.surfaces[view.camera];
+  const glm::ivec2 size = scene.projectors[view.projector].device.intrinsics.size;
+  const glm::ivec2 cells = (size + cell_px - 1) / cell_px;
+  std::vector<bool> seen(std::size_t(cells.x) * cells.y, false);
+  std::size_t hits = 0, lit = 0;
+  for (std::size_t i = 0; i < std::size_t(surface.width) * surface.height; ++i) {
+    hits += surface.hit(i);
+    if (!view.light.lit(i)) continue;
+    ++lit;
+    const int x = std::clamp(int(view.light.u_px.values[i] + 0.5), 0, size.x - 1) / cell_px;
+    const int y = std::clamp(int(view.light.v_px.values[i] + 0.5), 0, size.y - 1) / cell_px;
+    seen[std::size_t(y) * cells.x + x] = true;
+  }
+  const auto count = std::count(seen.begin(), seen.end(), true);
+  return {hits ? 100.0 * double(lit) / double(hits) : 0, 100.0 * double(count) / double(seen.size())};
+}
+
+}  // namespace laterna

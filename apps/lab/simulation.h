@@ -1,0 +1,87 @@
+// Scene to pictures, kept in memory: what each camera sees, which projector pixel lights it, and the captured
+// stacks.
+#pragma once
+
+#include "render/direct_light.h"
+#include "render/ray_scene.h"
+#include "render/surface.h"
+#include "sim/image.h"
+#include "sim/scene.h"
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace laterna {
+
+/// Seconds of wall clock by stage, in the order in which stages first ran.
+struct StageTimes {
+  struct Stage {
+    std::string name;
+    double seconds;
+  };
+  std::vector<Stage> stages;
+
+  void add(const std::string& name, double seconds);
+  double total() const;
+
+  /// Runs `work` and adds its time to the stage.
+  template <class Work>
+  auto measure(const std::string& name, Work&& work);
+};
+
+/// A line of progress, for people.
+using Progress = std::function<void(const std::string&)>;
+
+/// One projector as one camera sees it.
+struct View {
+  int camera = 0, projector = 0;  ///< indices into the scene
+  LightMap light;
+  double saturation_cd_per_m2 = 0;
+};
+
+/// What does not depend on the patterns: rays are traced once.
+struct Traced {
+  RayScene rays;
+  std::vector<SurfaceMap> surfaces;  ///< one per camera
+  std::vector<PixelArray<glm::dvec3>>
+      points_world;         ///< one per camera: what each pixel sees, m; NaN where nothing
+  std::vector<View> views;  ///< camera by camera, projector by projector
+};
+
+/// Traces every camera's surface and every projector's light on it, and chooses each view's exposure: the
+/// sensor's own, or automatic. Throws InputError where the scene has no projector or no camera.
+Traced trace(const Scene& scene, StageTimes& times, const Progress& progress = {});
+
+/// The pictures of one view: the projector's sequence with the other projectors at black.
+CapturedStack capture_view(const Scene& scene, const Traced& traced, const View& view, std::uint64_t seed,
+                           StageTimes& times);
+
+/// Share of something, in per cent, for people.
+struct Overlap {
+  double camera_lit = 0;      ///< lit pixels over pixels that see a surface
+  double projector_seen = 0;  ///< projector pixels (in cells of 8×8) that some lit camera pixel sees
+};
+Overlap overlap(const Scene& scene, const Traced& traced, const View& view);
+
+}  // namespace laterna
+
+#include <chrono>
+#include <type_traits>
+
+template <class Work>
+auto laterna::StageTimes::measure(const std::string& name, Work&& work) {
+  const auto start = std::chrono::steady_clock::now();
+  const auto stop = [&] {
+    add(name, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  };
+  if constexpr (std::is_void_v<std::invoke_result_t<Work>>) {
+    work();
+    stop();
+  } else {
+    auto result = work();
+    stop();
+    return result;
+  }
+}

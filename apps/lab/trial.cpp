@@ -1,0 +1,131 @@
+#include "apps/lab/trial.h"
+
+#include "sim/error.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+
+namespace laterna {
+
+namespace {
+
+constexpr float nan_f = std::numeric_limits<float>::quiet_NaN();
+
+void judge(const Scene& scene, const Traced& traced, const Correspondences& correspondences,
+           const TrialOptions& options, ProjectorOutcome& outcome) {
+  const Device& truth = scene.projectors[outcome.projector].device;
+  if (correspondences.world_points.empty()) {
+    outcome.solve.status = Status::refused;
+    outcome.solve.reason = "no overlap: no camera pixel sees light of this projector that could be decoded";
+    return;
+  }
+  SolveOptions solve_options = options.solve;
+  solve_options.lens_model = truth.lens.model;
+  solve_options.seed = options.seed;
+  outcome.solve = outcome.times.measure(
+      "solve", [&] { return solve(correspondences, truth.intrinsics.size, solve_options); });
+  if (outcome.solve.status == Status::refused) return;
+  const std::vector<glm::dvec3> points = lit_points(traced, outcome.projector);
+  if (points.empty()) {
+    outcome.solve.status = Status::refused;
+    outcome.solve.reason = "pictures decoded although no camera pixel is lit: noise was taken for signal";
+    return;
+  }
+  outcome.times.measure("verify", [&] {
+    outcome.verification = verify(truth, outcome.solve.estimate, outcome.solve.covariance, points);
+    for (const glm::dvec2& e : error_vectors(truth, outcome.solve.estimate, points)) {
+      outcome.surface_error_px.push_back(float(glm::length(e)));
+    }
+  });
+}
+
+}  // namespace
+
+std::vector<glm::dvec3> lit_points(const Traced& traced, int projector) {
+  std::vector<glm::dvec3> points;
+  for (const View& view : traced.views) {
+    if (view.projector != projector) continue;
+    const auto& points_world = traced.points_world[view.camera].values;
+    for (std::size_t i = 0; i < points_world.size(); ++i) {
+      if (view.light.lit(i)) points.push_back(points_world[i]);
+    }
+  }
+  return points;
+}
+
+void append_correspondences(const DecodedMap& decoded, const PixelArray<glm::dvec3>& points_world, int camera,
+                            int block_px, Correspondences& out) {
+  const std::uint32_t columns = std::uint32_t((points_world.width + block_px - 1) / block_px);
+  const std::uint32_t blocks = columns * std::uint32_t((points_world.height + block_px - 1) / block_px);
+  for (int y = 0; y < points_world.height; ++y) {
+    for (int x = 0; x < points_world.width; ++x) {
+      const std::size_t i = points_world.index(x, y);
+      if (!decoded.valid.values[i] || std::isnan(points_world.values[i].x)) continue;
+      out.world_points.push_back(points_world.values[i]);
+      out.projector_pixels.emplace_back(decoded.u_px.values[i], decoded.v_px.values[i]);
+      out.sigma_px.push_back(decoded.sigma_px.values[i]);
+      out.cluster.push_back(std::uint32_t(camera) * blocks + std::uint32_t(y / block_px) * columns +
+                            std::uint32_t(x / block_px));
+    }
+  }
+}
+
+DecodedMap true_map(const LightMap& light) {
+  DecodedMap map(light.width, light.height);
+  for (std::size_t i = 0; i < map.valid.values.size(); ++i) {
+    const bool lit = light.lit(i);
+    map.u_px.values[i] = lit ? light.u_px.values[i] : std::numeric_limits<double>::quiet_NaN();
+    map.v_px.values[i] = lit ? light.v_px.values[i] : std::numeric_limits<double>::quiet_NaN();
+    map.sigma_px.values[i] = lit ? 1e-3f : nan_f;
+    map.valid.values[i] = lit;
+    map.confidence.values[i] = lit ? 1.0f : 0.0f;
+  }
+  return map;
+}
+
+std::vector<ProjectorOutcome> run_trial(const Scene& scene, const Traced& traced, const TrialOptions& options,
+                                        StageTimes& times, const ViewSink& sink, const Progress& progress) {
+  std::vector<ProjectorOutcome> outcomes;
+  for (int p = 0; p < int(scene.projectors.size()); ++p) {
+    ProjectorOutcome outcome;
+    outcome.projector = p;
+    outcome.name = scene.projectors[p].device.name;
+    Correspondences correspondences;
+    for (const View& view : traced.views) {
+      if (view.projector != p) continue;
+      if (progress)
+        progress(fmt::format("\"{}\" plays its patterns, \"{}\" photographs and decodes them", outcome.name,
+                             scene.cameras[view.camera].device.name));
+      std::optional<CapturedStack> pictures;
+      if (!options.true_uv) pictures = capture_view(scene, traced, view, options.seed, outcome.times);
+      const DecodedMap decoded = outcome.times.measure("decode", [&] {
+        return pictures ? decode_gray(*pictures, scene.projectors[p].device.intrinsics.size, options.decode)
+                        : true_map(view.light);
+      });
+      append_correspondences(decoded, traced.points_world[view.camera], view.camera, options.block_px,
+                             correspondences);
+      if (sink) sink(view, pictures ? &*pictures : nullptr, decoded);
+    }
+    outcome.correspondences = correspondences.world_points.size();
+    if (progress)
+      progress(
+          fmt::format("solving for \"{}\" from {} correspondences", outcome.name, outcome.correspondences));
+    judge(scene, traced, correspondences, options, outcome);
+    for (const auto& stage : outcome.times.stages) times.add(stage.name, stage.seconds);
+    outcomes.push_back(std::move(outcome));
+  }
+  return outcomes;
+}
+
+int exit_code_of(const std::vector<ProjectorOutcome>& outcomes) {
+  int code = 0;
+  for (const ProjectorOutcome& outcome : outcomes) {
+    if (outcome.solve.status == Status::refused) code = 3;
+    if (outcome.solve.status == Status::weak && code == 0) code = 4;
+  }
+  return code;
+}
+
+}  // namespace laterna

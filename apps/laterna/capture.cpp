@@ -1,0 +1,47 @@
+#include "apps/laterna/command.h"
+
+#include "apps/lab/capture_writer.h"
+#include "sim/scene_build.h"
+#include "sim/scene_file.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace laterna {
+
+void add_capture(CLI::App& app, Common& common) {
+  struct Words {
+    std::string scene, out;
+    CaptureOptions options;
+  };
+  auto words = std::make_shared<Words>();
+  CLI::App* command = add_command(app, "capture", "laterna capture scene.toml -o capture",
+                                  "Plays each projector's patterns and writes every camera's pictures, the "
+                                  "scene, the matrices and the truth per\n"
+                                  "pixel into a new folder with a manifest (sim/capture_folder.h).");
+  command->add_option("SCENE", words->scene, "Scene file (TOML)")->required();
+  command->add_option("-o,--output", words->out, "New folder")->required();
+  command
+      ->add_option("--format", words->options.format,
+                   "Picture format: png, tif (fastest, uncompressed) or pgm")
+      ->capture_default_str();
+  command->add_flag("!--no-truth", words->options.truth, "Leaves out the truth per pixel");
+  command->callback([words, &common] {
+    const SceneSpec spec = with_names(read_scene_spec(words->scene));
+    const Scene scene = load_scene(words->scene);
+    words->options.seed = common.seed;
+    StageTimes times;
+    write_capture(spec, scene, std::filesystem::path(words->scene).parent_path(), words->out, words->options,
+                  times, [&](const std::string& line) { progress(common, line); });
+    if (common.json) {
+      nlohmann::json seconds;
+      for (const auto& stage : times.stages) seconds[stage.name] = stage.seconds;
+      fmt::print("{}\n", nlohmann::json{{"folder", words->out}, {"seconds", seconds}}.dump());
+      return;
+    }
+    for (const auto& stage : times.stages) fmt::print("  {:<10} {:>8.3f} s\n", stage.name, stage.seconds);
+    fmt::print("open {}/manifest.json\n", words->out);
+  });
+}
+
+}  // namespace laterna

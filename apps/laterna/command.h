@@ -1,0 +1,44 @@
+// What the subcommands share. One thin file per subcommand: it parses words, calls the lab, prints.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include <cstdint>
+#include <string>
+
+namespace laterna {
+
+/// Exit codes; the README's table documents them.
+enum ExitCode { exit_ok = 0, exit_internal = 1, exit_bad_input = 2, exit_refused = 3, exit_weak = 4 };
+
+/// Options that every subcommand takes.
+struct Common {
+  int threads = 0;
+  bool json = false;
+  std::uint64_t seed = 1;
+  int exit_code = exit_ok;  ///< set by the subcommand that ran
+};
+
+/// Adds a subcommand whose help begins with a working example.
+CLI::App* add_command(CLI::App& app, const std::string& name, const std::string& example,
+                      const std::string& sentence);
+
+void add_new(CLI::App& app, Common& common);
+void add_check(CLI::App& app, Common& common);
+void add_info(CLI::App& app, Common& common);
+void add_project(CLI::App& app, Common& common);
+void add_preview(CLI::App& app, Common& common);
+void add_patterns(CLI::App& app, Common& common);
+void add_capture(CLI::App& app, Common& common);
+void add_decode(CLI::App& app, Common& common);
+void add_calibrate(CLI::App& app, Common& common);
+void add_verify(CLI::App& app, Common& common);
+void add_roundtrip(CLI::App& app, Common& common);
+
+/// A line of progress on standard error, unless --json is on.
+void progress(const Common& common, const std::string& line);
+
+/// "1920x1080" to a size. Throws InputError for anything else.
+std::array<int, 2> parse_size(const std::string& text, const char* option);
+
+}  // namespace laterna

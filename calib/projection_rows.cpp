@@ -1,0 +1,261 @@
+#include "calib/projection_rows.h"
+
+#include "calib/instruction_sets.h"
+#include "sim/parallel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace laterna {
+
+namespace {
+
+constexpr std::size_t group = 128, chunk = 4096;
+
+// R·x, t and the pinhole in plain numbers, so that loops over them vectorise.
+struct Pinhole {
+  double fx, fy, cx, cy, r[9], t[3];
+};
+
+Pinhole pinhole_of(const ProjectorState& s) {
+  Pinhole p{s.parameters[0], s.parameters[1], s.parameters[2], s.parameters[3], {}, {}};
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) p.r[3 * i + j] = s.device_from_points.rotation[j][i];
+    p.t[i] = s.device_from_points.translation[i];
+  }
+  return p;
+}
+
+// What a group of points gives on the way to its rows: R·x, 1/z, x/z, y/z and the residuals.
+struct GroupTerms {
+  double rx[group], ry[group], rz[group], iz[group], a[group], b[group], du[group], dv[group], weight[group];
+};
+
+// False where a point lies behind.
+LATERNA_CLONES bool pinhole_terms(const PointTable& points, const Pinhole& p, std::size_t begin,
+                                  std::size_t count, GroupTerms& g) {
+  const double *x = &points.x[begin], *y = &points.y[begin], *z = &points.z[begin], *u = &points.u[begin],
+               *v = &points.v[begin];
+  for (std::size_t i = 0; i < count; ++i) {
+    g.rx[i] = p.r[0] * x[i] + p.r[1] * y[i] + p.r[2] * z[i];
+    g.ry[i] = p.r[3] * x[i] + p.r[4] * y[i] + p.r[5] * z[i];
+    g.rz[i] = p.r[6] * x[i] + p.r[7] * y[i] + p.r[8] * z[i];
+    g.iz[i] = 1 / (g.rz[i] + p.t[2]);
+    g.a[i] = (g.rx[i] + p.t[0]) * g.iz[i];
+    g.b[i] = (g.ry[i] + p.t[1]) * g.iz[i];
+    g.du[i] = p.fx * g.a[i] + p.cx - u[i];
+    g.dv[i] = p.fy * g.b[i] + p.cy - v[i];
+  }
+  bool all = true;
+  for (std::size_t i = 0; i < count; ++i) all = all && g.iz[i] > 0 && g.iz[i] < 1e300;
+  return all;
+}
+
+// d(u)/dx_device = (gx, 0, -gx·a), d(v)/dx_device = (0, gy, -gy·b); a left rotation moves x_device by w ×
+// R·x.
+LATERNA_CLONES void pinhole_columns(const Pinhole& p, std::size_t count, const GroupTerms& g,
+                                    const RowBlock& block) {
+  double* c[2][11];
+  for (int j = 0; j < 11; ++j) c[0][j] = block.column(j, 0), c[1][j] = block.column(j, 1);
+  for (std::size_t i = 0; i < count; ++i) {
+    const double w = g.weight[i], gx = w * p.fx * g.iz[i], gy = w * p.fy * g.iz[i];
+    const double ga = -gx * g.a[i], gb = -gy * g.b[i];
+    c[0][0][i] = w * g.a[i], c[1][1][i] = w * g.b[i];
+    c[0][2][i] = w, c[1][3][i] = w;
+    c[0][4][i] = g.ry[i] * ga, c[1][4][i] = g.ry[i] * gb - g.rz[i] * gy;
+    c[0][5][i] = g.rz[i] * gx - g.rx[i] * ga, c[1][5][i] = -g.rx[i] * gb;
+    c[0][6][i] = -g.ry[i] * gx, c[1][6][i] = g.rx[i] * gy;
+    c[0][7][i] = gx, c[1][8][i] = gy;
+    c[0][9][i] = ga, c[1][9][i] = gb;
+    c[0][10][i] = w * g.du[i], c[1][10][i] = w * g.dv[i];
+  }
+}
+
+void weigh(const PointTable& points, const RobustLoss& loss, std::size_t begin, std::size_t count,
+           GroupTerms& g) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const double is = points.inverse_sigma[begin + i];
+    g.weight[i] = is;
+    if (loss.kind != RobustLoss::Kind::none)
+      g.weight[i] *= std::sqrt(loss.weight(is * is * (g.du[i] * g.du[i] + g.dv[i] * g.dv[i])));
+  }
+}
+
+glm::dvec3 point(const PointTable& points, std::size_t i) { return {points.x[i], points.y[i], points.z[i]}; }
+
+bool fill_rows_with_lens(const PointTable& points, const LensGradient& lens, const ProjectorState& state,
+                         const RobustLoss& loss, std::size_t begin, std::size_t end, const RowBlock& block) {
+  const int p = lens.parameter_count() + 6;
+  std::vector<double> rows(2 * p);
+  double pixel[2];
+  for (std::size_t i = begin; i < end; ++i) {
+    if (!project_with_rows(lens, state, point(points, i), pixel, rows.data())) return false;
+    const double du = pixel[0] - points.u[i], dv = pixel[1] - points.v[i], is = points.inverse_sigma[i];
+    const double w = is * std::sqrt(loss.weight(is * is * (du * du + dv * dv)));
+    for (int r = 0; r < 2; ++r) {
+      for (int j = 0; j < p; ++j) block.column(j, r)[i - begin] = w * rows[r * p + j];
+      block.column(p, r)[i - begin] = w * (r == 0 ? du : dv);
+    }
+  }
+  return true;
+}
+
+// s of the points [begin, begin + count), count ≤ group.
+bool squared_of_group(const PointTable& points, const LensGradient& lens, const ProjectorState& state,
+                      std::size_t begin, std::size_t count, double* s) {
+  GroupTerms g;
+  if (lens.parameter_count() == 4) {
+    if (!pinhole_terms(points, pinhole_of(state), begin, count, g)) return false;
+  } else {
+    double pixel[2];
+    for (std::size_t i = 0; i < count; ++i) {
+      if (!project_with_rows(lens, state, point(points, begin + i), pixel, nullptr)) return false;
+      g.du[i] = pixel[0] - points.u[begin + i], g.dv[i] = pixel[1] - points.v[begin + i];
+    }
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    const double is = points.inverse_sigma[begin + i];
+    s[i] = is * is * (g.du[i] * g.du[i] + g.dv[i] * g.dv[i]);
+  }
+  return true;
+}
+
+}  // namespace
+
+WorldNormalisation normalisation_of(const std::vector<glm::dvec3>& points) {
+  if (points.empty()) return {};
+  const glm::dvec3 origin =
+      points.front();  // sums of differences keep their digits far from the world's origin
+  glm::dvec3 sum(0.0);
+  for (const auto& x : points) sum += x - origin;
+  WorldNormalisation n{origin + sum / double(points.size()), 0};
+  for (const auto& x : points) n.scale_m += glm::length(x - n.center);
+  n.scale_m /= double(points.size());
+  if (!(n.scale_m > 0)) n.scale_m = 1;
+  return n;
+}
+
+Rigid device_from_normalised(const Rigid& device_from_world, const WorldNormalisation& n) {
+  return {device_from_world.rotation, apply(device_from_world, n.center) / n.scale_m};
+}
+
+Rigid device_from_world(const Rigid& d, const WorldNormalisation& n) {
+  return {d.rotation, n.scale_m * d.translation - d.rotation * n.center};
+}
+
+ProjectorState state_of(const Device& device) {
+  const auto& k = device.intrinsics;
+  ProjectorState state{{k.fx, k.fy, k.cx, k.cy}, device.device_from_world};
+  state.parameters.insert(state.parameters.end(), device.lens.parameters.begin(),
+                          device.lens.parameters.end());
+  return state;
+}
+
+PointTable point_table(const Correspondences& c, const WorldNormalisation& normalisation) {
+  const std::size_t n = c.world_points.size();
+  std::vector<std::size_t> order(n);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  if (!c.cluster.empty()) {
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return c.cluster[a] < c.cluster[b]; });
+  }
+  PointTable t;
+  for (auto* column : {&t.x, &t.y, &t.z, &t.u, &t.v, &t.inverse_sigma}) column->reserve(n);
+  for (std::size_t k = 0; k < n; ++k) {
+    const std::size_t i = order[k];
+    const glm::dvec3 x = (c.world_points[i] - normalisation.center) / normalisation.scale_m;
+    t.x.push_back(x.x), t.y.push_back(x.y), t.z.push_back(x.z);
+    t.u.push_back(c.projector_pixels[i].x), t.v.push_back(c.projector_pixels[i].y);
+    t.inverse_sigma.push_back(1 / c.sigma_px[i]);
+    if (k == 0 || c.cluster.empty() || c.cluster[i] != c.cluster[order[k - 1]]) t.cluster_begin.push_back(k);
+  }
+  t.cluster_begin.push_back(n);
+  return t;
+}
+
+bool project_with_rows(const LensGradient& lens, const ProjectorState& state, const glm::dvec3& x,
+                       double pixel[2], double* rows) {
+  const int k = lens.parameter_count(), p = k + 6;
+  const glm::dvec3 rx = state.device_from_points.rotation * x;
+  double dx[6];
+  thread_local std::vector<double> dk;
+  dk.resize(2 * std::size_t(k));
+  if (!lens.project(state.parameters, rx + state.device_from_points.translation, pixel, rows ? dx : nullptr,
+                    rows ? dk.data() : nullptr))
+    return false;
+  for (int r = 0; rows && r < 2; ++r) {
+    const glm::dvec3 g(dx[3 * r], dx[3 * r + 1], dx[3 * r + 2]), turn = glm::cross(rx, g);
+    double* row = rows + r * p;
+    std::copy_n(dk.data() + r * k, k, row);
+    for (int j = 0; j < 3; ++j) row[k + j] = turn[j], row[k + 3 + j] = g[j];
+  }
+  return true;
+}
+
+bool fill_rows(const PointTable& points, const LensGradient& lens, const ProjectorState& state,
+               const RobustLoss& loss, std::size_t begin, std::size_t end, const RowBlock& block) {
+  if (lens.parameter_count() != 4) return fill_rows_with_lens(points, lens, state, loss, begin, end, block);
+  const Pinhole pinhole = pinhole_of(state);
+  GroupTerms g;
+  for (std::size_t i = begin; i < end; i += group) {
+    const std::size_t count = std::min(group, end - i);
+    if (!pinhole_terms(points, pinhole, i, count, g)) return false;
+    weigh(points, loss, i, count, g);
+    pinhole_columns(pinhole, count, g, {block.values + (i - begin), block.column_stride, block.second_row});
+  }
+  return true;
+}
+
+std::optional<std::vector<double>> row_factor(const PointTable& points, const LensGradient& lens,
+                                              const ProjectorState& state, const RobustLoss& loss) {
+  StackedRows rows;
+  rows.items = points.size();
+  rows.columns = lens.parameter_count() + 7;
+  if (lens.parameter_count() == 4) {
+    rows.support.assign(rows.columns, RowSupport::both);
+    rows.support[0] = rows.support[2] = RowSupport::first;
+    rows.support[1] = rows.support[3] = RowSupport::second;
+  }
+  rows.fill = [&](std::size_t begin, std::size_t end, const RowBlock& block) {
+    return fill_rows(points, lens, state, loss, begin, end, block);
+  };
+  return triangular_factor(rows);
+}
+
+std::optional<std::vector<double>> squared_residuals(const PointTable& points, const LensGradient& lens,
+                                                     const ProjectorState& state) {
+  std::vector<double> s(points.size());
+  const std::size_t chunks = (points.size() + chunk - 1) / chunk;
+  std::vector<char> failed(chunks, 0);
+  parallel_for(chunks, [&](std::size_t k) {
+    const std::size_t end = std::min(points.size(), (k + 1) * chunk);
+    for (std::size_t i = k * chunk; i < end && !failed[k]; i += group)
+      failed[k] = !squared_of_group(points, lens, state, i, std::min(group, end - i), &s[i]);
+  });
+  if (std::count(failed.begin(), failed.end(), 0) != std::ptrdiff_t(chunks)) return std::nullopt;
+  return s;
+}
+
+std::optional<double> total_loss(const PointTable& points, const LensGradient& lens,
+                                 const ProjectorState& state, const RobustLoss& loss) {
+  const std::size_t chunks = (points.size() + chunk - 1) / chunk;
+  std::vector<double> sums(chunks, 0.0);
+  parallel_for(chunks, [&](std::size_t k) {
+    double s[group];
+    const std::size_t end = std::min(points.size(), (k + 1) * chunk);
+    for (std::size_t i = k * chunk; i < end; i += group) {
+      const std::size_t count = std::min(group, end - i);
+      if (!squared_of_group(points, lens, state, i, count, s)) {
+        sums[k] = std::numeric_limits<double>::quiet_NaN();
+        return;
+      }
+      for (std::size_t j = 0; j < count; ++j) sums[k] += loss.rho(s[j]);
+    }
+  });
+  const double sum = std::accumulate(sums.begin(), sums.end(), 0.0);
+  if (!std::isfinite(sum)) return std::nullopt;
+  return sum;
+}
+
+}  // namespace laterna

@@ -1,0 +1,183 @@
+#include "calib/solve.h"
+
+#include "calib/candidates.h"
+#include "calib/covariance.h"
+#include "calib/verify.h"
+#include "sim/error.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace laterna {
+
+namespace {
+
+constexpr double rank_deficient = 1e-13;  // last over first scaled singular value
+
+SolveResult refused(SolveResult result, std::string reason) {
+  result.status = Status::refused;
+  result.reason = std::move(reason);
+  return result;
+}
+
+void validate_options(glm::ivec2 size, const SolveOptions& options) {
+  validate(Intrinsics{size, 1, 1, 0, 0}, "projector");
+  if (!(options.tolerance_px > 0)) {
+    throw InputError(
+        fmt::format("solve: the tolerance is {} px, expected a positive number", options.tolerance_px));
+  }
+  if (!(options.loss.scale_sigmas > 0)) {
+    throw InputError(fmt::format("solve: the robust loss has the scale {} sigmas, expected a positive number",
+                                 options.loss.scale_sigmas));
+  }
+  if (!options.start) return;
+  validate(*options.start);
+  if (options.start->lens.model != options.lens_model) {
+    throw InputError(fmt::format("solve: the start has the lens {}, expected {}", options.start->lens.model,
+                                 options.lens_model));
+  }
+}
+
+Device device_of(const ProjectorState& state, glm::ivec2 size, const std::string& lens_model,
+                 const WorldNormalisation& normalisation) {
+  const auto& k = state.parameters;
+  Device device;
+  device.intrinsics = {size, k[0], k[1], k[2], k[3]};
+  device.device_from_world = device_from_world(state.device_from_points, normalisation);
+  device.lens = {lens_model, {k.begin() + 4, k.end()}};
+  return device;
+}
+
+void describe_fit(SolveResult& result, const PointTable& points, const std::vector<double>& s, int p,
+                  const RobustLoss& loss) {
+  double sum = 0, weighted = 0, outliers = 0;
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    sum += s[i] / (points.inverse_sigma[i] * points.inverse_sigma[i]);
+    weighted += s[i];
+    outliers += s[i] > 13.8;
+  }
+  const double n = double(s.size());
+  result.fit_rms_px = std::sqrt(sum / n);
+  result.reduced_chi2 = weighted / std::max(1.0, 2 * n - p);
+  result.outlier_share = outliers / n;
+  result.residual_scale = residual_scale(s, p, loss);
+}
+
+// Picks the covariance that the verdict uses, and what it predicts over the estimate's own volume. False
+// where the estimate cannot map that volume.
+bool predict(SolveResult& result, const std::vector<glm::dvec3>& world_points) {
+  const int p = int(result.parameter_names.size());
+  const auto volume = image_grid(result.estimate, volume_depths(depths_of(result.estimate, world_points)));
+  const auto prediction = [&](const std::vector<double>& c) {
+    return c.empty() ? 0.0 : predicted_rms(result.estimate, c, volume).value_or(INFINITY);
+  };
+  const double independent = prediction(result.covariance_independent);
+  const double clustered = prediction(result.covariance_clustered);
+  result.clusters_suffice = result.clusters >= 3 * std::size_t(p) && !result.covariance_clustered.empty();
+  const bool use_clustered = result.clusters_suffice || clustered > independent;
+  result.covariance = use_clustered ? result.covariance_clustered : result.covariance_independent;
+  result.predicted_volume_rms_px = use_clustered ? clustered : independent;
+  result.predicted_volume_rms_independent_px = independent;
+  for (int i = 0; i < p; ++i) result.sigma.push_back(std::sqrt(std::max(0.0, result.covariance[i * p + i])));
+  return volume.size() == std::size_t(16 * 12 * 12);
+}
+
+// Everything that makes an estimate weak, in plain sentences.
+std::vector<std::string> weaknesses(const SolveResult& r, const Correspondences& c,
+                                    const SolveOptions& options, bool maps_its_volume) {
+  std::vector<std::string> w;
+  const double n = double(c.world_points.size()), p = double(r.parameter_names.size());
+  const std::string trade =
+      fmt::format("{}; the relief is {:.2g} % of the throw", r.weakest_direction, 100 * r.relief_over_throw);
+  if (!maps_its_volume) w.push_back("the estimated lens maps no ray to parts of the projector's image");
+  if (!(r.predicted_volume_rms_px <= options.tolerance_px)) {
+    w.push_back(
+        fmt::format("the predicted volume error of {:.3g} px is above the tolerance of {:.3g} px ({})",
+                    r.predicted_volume_rms_px, options.tolerance_px, trade));
+  }
+  const auto& k = r.estimate.intrinsics;
+  const double focal_share = std::max(r.sigma[0] / k.fx, r.sigma[1] / k.fy);
+  if (!(focal_share <= 0.1)) {
+    w.push_back(fmt::format(
+        "the focal length is known to {:.2g} % only, so that a linearised covariance cannot be believed ({})",
+        100 * focal_share, trade));
+  }
+  const double spare = std::max(1.0, 2 * n - p);
+  if (r.residual_scale > 2 * std::sqrt(1 + 5 * std::sqrt(2 / spare))) {
+    w.push_back(
+        fmt::format("the residual rms is {:.2g} times what the sigmas explain: lens distortion, wrong "
+                    "mesh or outliers",
+                    r.residual_scale));
+  }
+  const bool robust = options.loss.kind != RobustLoss::Kind::none;
+  const double bearable = options.loss.kind == RobustLoss::Kind::huber ? 0.15 : 0.5;
+  if (robust && r.outlier_share > bearable)
+    w.push_back(fmt::format("{:.0f} % of the correspondences are outliers, more than this loss bears",
+                            100 * r.outlier_share));
+  if (!r.clusters_suffice && !c.cluster.empty()) {
+    w.push_back(
+        fmt::format("only {} blocks of the camera image hold correspondences and {} are needed: how far "
+                    "errors are correlated cannot be told",
+                    r.clusters, 3 * r.parameter_names.size()));
+  }
+  return w;
+}
+
+}  // namespace
+
+SolveResult solve(const Correspondences& c, glm::ivec2 size, const SolveOptions& options) {
+  validate(c);
+  validate_options(size, options);
+  const LensGradient lens(options.lens_model);
+  const int p = lens.parameter_count() + 6;
+  SolveResult result;
+  result.parameter_names = parameter_names(lens.parameter_count() - 4);
+  const GeometryReport geometry = check_geometry(c, p);
+  if (geometry.verdict != Geometry::sound) return refused(std::move(result), geometry.reason);
+
+  const WorldNormalisation normalisation = normalisation_of(c.world_points);
+  const PointTable points = point_table(c, normalisation);
+  const BestRefinement best = best_refinement(c, points, normalisation, size, lens, geometry, options);
+  if (!best.refinement) return refused(std::move(result), best.refusal);
+  const Refinement& fit = *best.refinement;
+  result.iterations = fit.iterations;
+  result.termination = fit.termination;
+  result.estimate = device_of(fit.state, size, options.lens_model, normalisation);
+  result.relief_over_throw = relief_over_throw(c, geometry, result.estimate.device_from_world);
+  describe_fit(result, points, *squared_residuals(points, lens, fit.state), p, options.loss);
+
+  const Spectrum spectrum = scaled_spectrum(fit.factor, p);
+  result.scaled_singular_values = spectrum.singular_values;
+  result.smallest_gap = spectrum.singular_values.back() / spectrum.singular_values.front();
+  result.weakest_direction = direction_in_words(spectrum.weakest, result.parameter_names);
+  if (!fit.converged)
+    return refused(std::move(result),
+                   fmt::format("the solver did not converge ({}): {} (relief {:.2g} % of the throw)",
+                               fit.termination, result.weakest_direction, 100 * result.relief_over_throw));
+  const auto independent =
+      result.smallest_gap > rank_deficient
+          ? ceres_covariance(points, lens, fit.state, {options.loss, 0, double(std::max(size.x, size.y))})
+          : std::nullopt;
+  if (!independent) {
+    return refused(std::move(result),
+                   fmt::format("the points do not determine the projector: {} (relief {:.2g} % of the throw)",
+                               result.weakest_direction, 100 * result.relief_over_throw));
+  }
+  const Rigid& pose = result.estimate.device_from_world;
+  result.covariance_independent = world_covariance(*independent, pose, normalisation);
+  const auto clustered = clustered_covariance(points, lens, fit.state, options.loss, fit.factor);
+  if (clustered) result.covariance_clustered = world_covariance(*clustered, pose, normalisation);
+  result.clusters = points.cluster_count();
+  if (!(result.estimate.intrinsics.fx > 0 && result.estimate.intrinsics.fy > 0))
+    return refused(std::move(result), "the best fit has a negative focal length: the mapping is mirrored");
+  const bool maps_its_volume = predict(result, c.world_points);
+  const auto weak = weaknesses(result, c, options, maps_its_volume);
+  result.status = weak.empty() ? Status::ok : Status::weak;
+  result.reason = fmt::format("{}", fmt::join(weak, "; "));
+  return result;
+}
+
+}  // namespace laterna

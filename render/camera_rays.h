@@ -1,0 +1,34 @@
+// The direction that each pixel of a camera looks along, found once.
+#pragma once
+
+#include "render/pixel_array.h"
+#include "sim/device.h"
+
+#include <glm/glm.hpp>
+
+namespace laterna {
+
+/// Directions in the camera's frame, scaled to z = 1, so that a ray's parameter is the axial depth in metres.
+class CameraRays {
+ public:
+  /// Unprojects all W×H pixel centres; each starts from its left neighbour, rows stand alone. A pinhole needs
+  /// no table.
+  explicit CameraRays(const Device& camera);
+
+  int width() const { return width_; }
+  int height() const { return height_; }
+
+  /// (x/z, y/z) of pixel (x, y); NaN where the lens fails.
+  glm::dvec2 direction(int x, int y) const {
+    if (pinhole_) return {(x - cx_) * inverse_fx_, (y - cy_) * inverse_fy_};
+    return table_(x, y);
+  }
+
+ private:
+  int width_, height_;
+  bool pinhole_;
+  double cx_, cy_, inverse_fx_, inverse_fy_;
+  PixelArray<glm::dvec2> table_;
+};
+
+}  // namespace laterna

@@ -1,0 +1,106 @@
+#include "render/direct_light.h"
+
+#include "sim/parallel.h"
+
+#include <algorithm>
+#include <bit>
+#include <limits>
+
+namespace laterna {
+
+namespace {
+
+// How far before the projector's centre a shadow ray ends, as a share of its length: 2⁻²⁰, 1 µm per metre.
+constexpr float shadow_ray_end = 1 - 0x1p-20f;
+
+// The projector as one object sees it. "Relative" means in world axes, relative to the scene's centre.
+struct ObjectLight {
+  ProjectiveLookup lookup;
+  glm::dmat3 world_from_object_linear;
+  glm::dvec3 object_relative;  // the object's origin
+};
+
+struct Light {
+  glm::dvec3 center_relative;
+  double flux_per_pixel_lm;
+  std::vector<ObjectLight> objects;
+};
+
+Light make_light(const RayScene& rays, const Scene& scene, const Projector& projector) {
+  const glm::dvec3 center = center_in_world(projector.device.device_from_world);
+  const glm::ivec2 size = projector.device.intrinsics.size;
+  Light light{center - rays.center_world(), projector.flux_lm / (double(size.x) * size.y), {}};
+  for (const Object& object : scene.objects) {
+    const glm::dmat4& m = object.world_from_object;
+    light.objects.push_back(
+        {ProjectiveLookup(projector, m), glm::dmat3(m), glm::dvec3(m[3]) - rays.center_world()});
+  }
+  return light;
+}
+
+// Everything but the shadow; fills the shadow ray's lane where the point is still lit.
+void light_pixel(LightMap& map, std::size_t p, RayPacket& packet, int lane, const Light& light,
+                 const SurfaceMap& surface, const RayScene& rays) {
+  packet.valid[lane] = 0;
+  map.white_lx.values[p] = 0;
+  if (!surface.hit(p)) {
+    map.u_px.values[p] = map.v_px.values[p] = std::numeric_limits<double>::quiet_NaN();
+    map.why.values[p] = std::uint8_t(Unlit::no_surface);
+    return;
+  }
+  const std::uint32_t object = surface.object.values[p];
+  const ObjectLight& view = light.objects[object];
+  const glm::dvec3& point_object = surface.point_object.values[p];
+  const ProjectedPoint hit = view.lookup.project(point_object);
+  map.u_px.values[p] = hit.u_px;
+  map.v_px.values[p] = hit.v_px;
+  map.why.values[p] = std::uint8_t(hit.why);
+  if (hit.why != Unlit::lit) return;
+  const TrianglePlane& plane = rays.plane(object, surface.triangle.values[p]);
+  const glm::dvec3 point = view.world_from_object_linear * point_object + view.object_relative;
+  const double height = glm::dot(plane.normal_world, light.center_relative - point);
+  if (!(height > 0) || !surface.seen_front.values[p]) {
+    map.why.values[p] = std::uint8_t(Unlit::back_face);
+    return;
+  }
+  const double z = hit.depth_m;
+  map.white_lx.values[p] = light.flux_per_pixel_lm * hit.pixels_per_unit_area * height / (z * z * z);
+  const glm::dvec3 start = point + plane.margin_m * plane.normal_world;
+  const glm::dvec3 towards = light.center_relative - start;
+  packet.origin_x[lane] = static_cast<float>(start.x), packet.direction_x[lane] = float(towards.x);
+  packet.origin_y[lane] = static_cast<float>(start.y), packet.direction_y[lane] = float(towards.y);
+  packet.origin_z[lane] = static_cast<float>(start.z), packet.direction_z[lane] = float(towards.z);
+  packet.valid[lane] = -1;
+}
+
+}  // namespace
+
+LightMap trace_light(const RayScene& rays, const Scene& scene, const SurfaceMap& surface,
+                     const Projector& projector) {
+  const Light light = make_light(rays, scene, projector);
+  const int w = surface.width, h = surface.height;
+  LightMap map{w, h, {w, h}, {w, h}, {w, h}, {w, h}};
+  parallel_for((h + tile_edge - 1) / tile_edge, [&](std::size_t row) {
+    const int y0 = static_cast<int>(row) * tile_edge, y1 = std::min(y0 + tile_edge, h);
+    RayPacket packet{};
+    std::fill_n(packet.end, packet_size, shadow_ray_end);
+    for (int x0 = 0; x0 < w; x0 += tile_edge) {
+      const int x1 = std::min(x0 + tile_edge, w);
+      std::fill_n(packet.valid, packet_size, 0);
+      for (int y = y0; y < y1; ++y)
+        for (int x = x0; x < x1; ++x)
+          light_pixel(map, map.u_px.index(x, y), packet, (y - y0) * tile_edge + x - x0, light, surface, rays);
+      if (std::none_of(packet.valid, packet.valid + packet_size, [](int valid) { return valid != 0; }))
+        continue;
+      for (std::uint32_t blocked = rays.occluded(packet); blocked; blocked &= blocked - 1) {
+        const int lane = std::countr_zero(blocked);
+        const std::size_t p = map.u_px.index(x0 + lane % tile_edge, y0 + lane / tile_edge);
+        map.why.values[p] = std::uint8_t(Unlit::shadow);
+        map.white_lx.values[p] = 0;
+      }
+    }
+  });
+  return map;
+}
+
+}  // namespace laterna

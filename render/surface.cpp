@@ -1,0 +1,163 @@
+#include "render/surface.h"
+
+#include "render/albedo.h"
+#include "sim/parallel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace laterna {
+
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+// The camera as one object sees it. x_object = center_object + camera + depth·(object_from_device·direction).
+struct ObjectView {
+  glm::dmat3 object_from_device;
+  glm::dvec3 camera_from_center, camera_object;
+  float albedo;
+  const Object* textured;  // null without an albedo map
+};
+
+struct View {
+  glm::dvec3 camera_relative;  // in world axes, relative to the scene's centre
+  glm::dmat3 world_from_device;
+  std::vector<ObjectView> objects;
+};
+
+View make_view(const RayScene& rays, const Scene& scene, const Device& camera) {
+  const Rigid world_from_device = inverse(camera.device_from_world);
+  const glm::dvec3 camera_world = world_from_device.translation;
+  View view{camera_world - rays.center_world(), world_from_device.rotation, {}};
+  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+    const Object& object = scene.objects[i];
+    const ObjectPlanes& planes = rays.objects()[i];
+    const glm::dvec3 camera_object =
+        planes.object_from_world_linear * (camera_world - glm::dvec3(object.world_from_object[3]));
+    const bool textured = object.albedo_map && !object.mesh.texture_coordinates.empty();
+    view.objects.push_back({planes.object_from_world_linear * view.world_from_device,
+                            camera_object - planes.center_object, camera_object, float(object.albedo),
+                            textured ? &object : nullptr});
+  }
+  return view;
+}
+
+SurfaceMap make_map(int w, int h) { return {w, h, {w, h}, {w, h}, {w, h}, {w, h}, {w, h}, {w, h}}; }
+
+// One tile of a camera's image while it is traced.
+struct Tile {
+  RayPacket rays;
+  HitPacket hits;
+  glm::dvec2 direction[packet_size];  // x/z, y/z in the camera's frame
+  int count_x, count_y;               // pixels inside the image
+};
+
+void aim(Tile& tile, const View& view, const CameraRays& directions, int x0, int y0) {
+  for (int lane = 0; lane < packet_size; ++lane) {
+    const int i = lane % tile_edge, j = lane / tile_edge;
+    const bool inside = i < tile.count_x && j < tile.count_y;
+    const glm::dvec2 d = inside ? directions.direction(x0 + i, y0 + j) : glm::dvec2(nan);
+    const glm::dmat3& m = view.world_from_device;
+    tile.direction[lane] = d;
+    tile.rays.valid[lane] = d.x == d.x ? -1 : 0;
+    tile.rays.direction_x[lane] = static_cast<float>(m[0].x * d.x + m[1].x * d.y + m[2].x);
+    tile.rays.direction_y[lane] = static_cast<float>(m[0].y * d.x + m[1].y * d.y + m[2].y);
+    tile.rays.direction_z[lane] = static_cast<float>(m[0].z * d.x + m[1].z * d.y + m[2].z);
+  }
+}
+
+void write_miss(SurfaceMap& map, std::size_t p) {
+  map.object.values[p] = map.triangle.values[p] = no_hit;
+  map.point_object.values[p] = glm::dvec3(nan);
+  map.depth_m.values[p] = nan;
+  map.albedo.values[p] = 0;
+  map.seen_front.values[p] = 0;
+}
+
+void write_hit(SurfaceMap& map, std::size_t p, const ObjectView& object, const TrianglePlane& plane,
+               const glm::dvec2& d, double embree_depth) {
+  const glm::dvec3 ray_object = object.object_from_device * glm::dvec3(d, 1.0);
+  const double slope = glm::dot(plane.normal_object, ray_object);
+  double depth = (plane.distance - glm::dot(plane.normal_object, object.camera_from_center)) / slope;
+  if (!(std::abs(depth - embree_depth) <= 1e-3 * embree_depth)) depth = embree_depth;
+  map.depth_m.values[p] = depth;
+  map.point_object.values[p] = object.camera_object + depth * ray_object;
+  map.seen_front.values[p] = slope < 0;
+  map.albedo.values[p] = slope < 0 ? object.albedo : 0;
+}
+
+void apply_albedo_map(SurfaceMap& map, std::size_t p, const Object& object, std::uint32_t triangle) {
+  const glm::dvec2 st = texture_coordinates_at(object.mesh, triangle, map.point_object.values[p]);
+  map.albedo.values[p] *= static_cast<float>(albedo_map_value(*object.albedo_map, st));
+}
+
+void write_tile(SurfaceMap& map, const Tile& tile, const View& view, const RayScene& scene, int x0, int y0) {
+  for (int j = 0; j < tile.count_y; ++j) {
+    for (int i = 0; i < tile.count_x; ++i) {
+      const int lane = j * tile_edge + i;
+      const std::size_t p = map.object.index(x0 + i, y0 + j);
+      const std::uint32_t id = tile.hits.object[lane], triangle = tile.hits.triangle[lane];
+      if (!tile.rays.valid[lane] || id == no_hit) {
+        write_miss(map, p);
+        continue;
+      }
+      map.object.values[p] = id;
+      map.triangle.values[p] = triangle;
+      const ObjectView& object = view.objects[id];
+      write_hit(map, p, object, scene.plane(id, triangle), tile.direction[lane], tile.hits.t[lane]);
+      if (object.textured) apply_albedo_map(map, p, *object.textured, triangle);
+    }
+  }
+}
+
+}  // namespace
+
+SurfaceMap trace_surface(const RayScene& rays, const Scene& scene, const Camera& camera,
+                         const CameraRays& directions) {
+  const View view = make_view(rays, scene, camera.device);
+  SurfaceMap map = make_map(directions.width(), directions.height());
+  parallel_for((map.height + tile_edge - 1) / tile_edge, [&](std::size_t row) {
+    const int y0 = static_cast<int>(row) * tile_edge;
+    Tile tile;
+    std::fill_n(tile.rays.origin_x, packet_size, static_cast<float>(view.camera_relative.x));
+    std::fill_n(tile.rays.origin_y, packet_size, static_cast<float>(view.camera_relative.y));
+    std::fill_n(tile.rays.origin_z, packet_size, static_cast<float>(view.camera_relative.z));
+    std::fill_n(tile.rays.end, packet_size, std::numeric_limits<float>::infinity());
+    tile.count_y = std::min(tile_edge, map.height - y0);
+    for (int x0 = 0; x0 < map.width; x0 += tile_edge) {
+      tile.count_x = std::min(tile_edge, map.width - x0);
+      aim(tile, view, directions, x0, y0);
+      rays.first_hits(tile.rays, tile.hits);
+      write_tile(map, tile, view, rays, x0, y0);
+    }
+  });
+  return map;
+}
+
+SurfaceMap trace_surface(const RayScene& rays, const Scene& scene, const Camera& camera) {
+  return trace_surface(rays, scene, camera, CameraRays(camera.device));
+}
+
+PixelArray<glm::dvec3> points_world(const SurfaceMap& surface, const Scene& scene) {
+  PixelArray<glm::dvec3> points(surface.width, surface.height);
+  for (std::size_t p = 0; p < points.values.size(); ++p) {
+    points.values[p] = surface.hit(p) ? glm::dvec3(scene.objects[surface.object.values[p]].world_from_object *
+                                                   glm::dvec4(surface.point_object.values[p], 1.0))
+                                      : glm::dvec3(nan);
+  }
+  return points;
+}
+
+PixelArray<glm::dvec3> normals_world(const SurfaceMap& surface, const RayScene& rays) {
+  PixelArray<glm::dvec3> normals(surface.width, surface.height);
+  for (std::size_t p = 0; p < normals.values.size(); ++p) {
+    normals.values[p] = surface.hit(p)
+                            ? rays.plane(surface.object.values[p], surface.triangle.values[p]).normal_world
+                            : glm::dvec3(0.0);
+  }
+  return normals;
+}
+
+}  // namespace laterna

@@ -1,0 +1,24 @@
+// Calls the command as a person would.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace laterna::testing {
+
+struct CommandResult {
+  int exit_code = -1;
+  std::string out, err;
+};
+
+/// Runs `laterna WORDS` in a folder, by a shell, with `input` on standard input.
+CommandResult laterna(const std::string& words, const std::filesystem::path& folder,
+                      const std::string& input = "");
+
+/// The whole of a file.
+std::string read_text(const std::filesystem::path& path);
+
+/// Every name in a folder, sorted, each followed by a space.
+std::string listing(const std::filesystem::path& folder);
+
+}  // namespace laterna::testing
