@@ -12,8 +12,8 @@ namespace laterna {
 
 namespace {
 
-constexpr double thin_relief = 1e-2;       // third over first spread
-constexpr double good_residual_scale = 3;  // above it, other starts are tried too
+constexpr double thin_relief = 1e-2;          // third over first spread
+constexpr double good_residual_scale = 3;     // above it, other starts are tried too
 constexpr std::size_t trial_points = 1000;    // for nominal starts
 constexpr std::size_t enough_points = 40000;  // to choose among starts
 
@@ -67,8 +67,7 @@ bool clearly_impossible(const DltResult& linear, const Context& c) {
 }
 
 // Focal guesses on a thinned table, a wide robust loss first; the two best of them then see all points.
-void try_nominal(const Context& c, const std::vector<std::size_t>& inliers,
-                 std::optional<Refinement>& best) {
+void try_nominal(const Context& c, const std::vector<std::size_t>& inliers, std::optional<Refinement>& best) {
   const PointTable trial = thinned(c.points, trial_points);
   const PointTable posing =
       inliers.empty() ? trial : point_table(subset(c.correspondences, inliers), c.normalisation);
@@ -115,15 +114,19 @@ BestRefinement best_refinement(const Correspondences& correspondences, const Poi
   if (points.size() > enough_points) {
     const Correspondences few =
         subset(correspondences, evenly_spread(correspondences.world_points.size(), enough_points));
-    BestRefinement best = best_refinement(few, point_table(few, normalisation), normalisation, size, lens,
-                                          geometry, options);
+    BestRefinement best =
+        best_refinement(few, point_table(few, normalisation), normalisation, size, lens, geometry, options);
     if (!best.refinement) return best;
     best.refinement = refine(points, lens, best.refinement->state,
                              {options.loss, options.max_iterations, double(std::max(size.x, size.y))});
     if (!best.refinement) best.refusal = "some points lie behind the projector that fits the others";
     return best;
   }
-  const Context c{correspondences, points, normalisation, size, lens,
+  const Context c{correspondences,
+                  points,
+                  normalisation,
+                  size,
+                  lens,
                   {options.loss, options.max_iterations, double(std::max(size.x, size.y))}};
   std::optional<Refinement> best;
   if (options.start) {
@@ -140,13 +143,15 @@ BestRefinement best_refinement(const Correspondences& correspondences, const Poi
   }
   for (const auto& result : linear) {
     if (clearly_impossible(result, c)) return {std::nullopt, result.reason};
-    if (result.status == DltStatus::ok) keep_better(best, refine(points, lens, start_of(result, c), c.refine));
+    if (result.status == DltStatus::ok)
+      keep_better(best, refine(points, lens, start_of(result, c), c.refine));
   }
   const bool thin = geometry.spread_m.z < thin_relief * geometry.spread_m.x;
   if (thin || !ends_well(best, c)) try_nominal(c, linear.back().inliers, best);
   if (best) return {std::move(best), {}};
   const std::string& why = linear.front().reason;
-  return {std::nullopt, "no start keeps all points in front of the projector" + (why.empty() ? why : ": " + why)};
+  return {std::nullopt,
+          "no start keeps all points in front of the projector" + (why.empty() ? why : ": " + why)};
 }
 
 }  // namespace laterna

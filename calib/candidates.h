@@ -16,11 +16,12 @@ struct BestRefinement {
   std::string refusal;  ///< why there is none
 };
 
-/// Where residuals stand against the sigmas: sqrt(Σs/(2n - p)), or with a robust loss sqrt(median(s)/(2·ln 2)), the
-/// median of s being 2·ln 2 for Gaussian noise. 1 is noise alone.
+/// Where residuals stand against the sigmas: sqrt(Σs/(2n - p)), or with a robust loss sqrt(median(s)/(2·ln
+/// 2)), the median of s being 2·ln 2 for Gaussian noise. 1 is noise alone.
 double residual_scale(std::vector<double> squared_residuals, int parameter_count, const RobustLoss& loss);
 
-/// Refines from every start that solve() describes; of more than 40,000 points, that many choose the start. `points` are the correspondences in normalised coordinates.
+/// Refines from every start that solve() describes; of more than 40,000 points, that many choose the start.
+/// `points` are the correspondences in normalised coordinates.
 BestRefinement best_refinement(const Correspondences& correspondences, const PointTable& points,
                                const WorldNormalisation& normalisation, glm::ivec2 size,
                                const LensGradient& lens, const GeometryReport& geometry,

@@ -28,8 +28,8 @@ void validate(const Correspondences& c) {
           x.y, x.z, p.x, p.y));
     }
     if (!(c.sigma_px[i] > 0 && std::isfinite(c.sigma_px[i]))) {
-      throw InputError(fmt::format("correspondence {}: sigma is {} px, expected a positive number", i,
-                                   c.sigma_px[i]));
+      throw InputError(
+          fmt::format("correspondence {}: sigma is {} px, expected a positive number", i, c.sigma_px[i]));
     }
   }
 }

@@ -13,8 +13,8 @@ struct Correspondences {
   std::vector<glm::dvec3> world_points;
   std::vector<glm::dvec2> projector_pixels;
   std::vector<double> sigma_px;  ///< per coordinate: u and v each have this standard deviation
-  /// The block of the camera image that a point was seen in; errors inside a block may be correlated. Ids need
-  /// not be dense. Empty: every point is a block of its own.
+  /// The block of the camera image that a point was seen in; errors inside a block may be correlated. Ids
+  /// need not be dense. Empty: every point is a block of its own.
   std::vector<std::uint32_t> cluster;
 };
 
@@ -25,8 +25,8 @@ void validate(const Correspondences& correspondences);
 /// The correspondences with the given indices, in that order.
 Correspondences subset(const Correspondences& correspondences, const std::vector<std::size_t>& indices);
 
-/// `wanted` of the indices 0..count-1 (all of them where there are fewer), evenly spread and jittered by the golden
-/// ratio, so that no row or column of a raster is met again and again.
+/// `wanted` of the indices 0..count-1 (all of them where there are fewer), evenly spread and jittered by the
+/// golden ratio, so that no row or column of a raster is met again and again.
 std::vector<std::size_t> evenly_spread(std::size_t count, std::size_t wanted);
 
 }  // namespace laterna

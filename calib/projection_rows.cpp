@@ -52,7 +52,8 @@ LATERNA_CLONES bool pinhole_terms(const PointTable& points, const Pinhole& p, st
   return all;
 }
 
-// d(u)/dx_device = (gx, 0, -gx·a), d(v)/dx_device = (0, gy, -gy·b); a left rotation moves x_device by w × R·x.
+// d(u)/dx_device = (gx, 0, -gx·a), d(v)/dx_device = (0, gy, -gy·b); a left rotation moves x_device by w ×
+// R·x.
 LATERNA_CLONES void pinhole_columns(const Pinhole& p, std::size_t count, const GroupTerms& g,
                                     const RowBlock& block) {
   double* c[2][11];
@@ -126,7 +127,8 @@ bool squared_of_group(const PointTable& points, const LensGradient& lens, const 
 
 WorldNormalisation normalisation_of(const std::vector<glm::dvec3>& points) {
   if (points.empty()) return {};
-  const glm::dvec3 origin = points.front();  // sums of differences keep their digits far from the world's origin
+  const glm::dvec3 origin =
+      points.front();  // sums of differences keep their digits far from the world's origin
   glm::dvec3 sum(0.0);
   for (const auto& x : points) sum += x - origin;
   WorldNormalisation n{origin + sum / double(points.size()), 0};
@@ -202,8 +204,7 @@ bool fill_rows(const PointTable& points, const LensGradient& lens, const Project
     const std::size_t count = std::min(group, end - i);
     if (!pinhole_terms(points, pinhole, i, count, g)) return false;
     weigh(points, loss, i, count, g);
-    pinhole_columns(pinhole, count, g,
-                    {block.values + (i - begin), block.column_stride, block.second_row});
+    pinhole_columns(pinhole, count, g, {block.values + (i - begin), block.column_stride, block.second_row});
   }
   return true;
 }

@@ -1,5 +1,5 @@
-// Residuals and Jacobian rows of all correspondences under one projector: what every solver and covariance here
-// is made of.
+// Residuals and Jacobian rows of all correspondences under one projector: what every solver and covariance
+// here is made of.
 //
 // Tangent order of the p columns: fx, fy, cx, cy (px), lens parameters, rotation (3), translation (3). The
 // rotation is a small left rotation vector w in the device frame, in radians: R = exp([w]×)·R̂.
@@ -43,7 +43,8 @@ struct PointTable {
 };
 PointTable point_table(const Correspondences& correspondences, const WorldNormalisation& normalisation);
 
-/// The pixel of one point and its 2×p tangent rows (row-major; may be null). False where the point lies behind.
+/// The pixel of one point and its 2×p tangent rows (row-major; may be null). False where the point lies
+/// behind.
 bool project_with_rows(const LensGradient& lens, const ProjectorState& state, const glm::dvec3& x,
                        double pixel[2], double* rows);
 

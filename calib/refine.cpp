@@ -74,8 +74,8 @@ class StackedBlock : public ceres::CostFunction {
     return true;
   }
 
-  // Ceres asks for derivatives by the ambient quaternion and multiplies them by PlusJacobian; its tangent δ is
-  // half the rotation vector. J_q = 2·J_w·MinusJacobian gives J_q·PlusJacobian = 2·J_w.
+  // Ceres asks for derivatives by the ambient quaternion and multiplies them by PlusJacobian; its tangent δ
+  // is half the rotation vector. J_q = 2·J_w·MinusJacobian gives J_q·PlusJacobian = 2·J_w.
   void write_jacobians(const RowMajor& r, const double* quaternion, double** jacobians) const {
     const int k = lens_.parameter_count();
     RowMajor j = RowMajor::Zero(p_ + 2, p_);
@@ -115,7 +115,7 @@ ceres::Solver::Options solver_options(int max_iterations) {
   o.parameter_tolerance = 1e-14;
   o.max_num_consecutive_invalid_steps = 50;
   o.initial_trust_region_radius = 1e10;  // the starts are good: nearly Gauss-Newton from the first step
-  o.num_threads = 1;  // the block has its own
+  o.num_threads = 1;                     // the block has its own
   o.logging_type = ceres::SILENT;
   return o;
 }
@@ -133,9 +133,9 @@ std::optional<Refinement> refine(const PointTable& points, const LensGradient& l
   if (!summary.IsSolutionUsable()) return std::nullopt;
 
   Refinement result;
-  result.state = state_of_blocks(blocks.intrinsics.data(), blocks.intrinsics.size(),
-                                 blocks.quaternion_xyzw.data(), blocks.translation.data(),
-                                 options.pixel_scale);
+  result.state =
+      state_of_blocks(blocks.intrinsics.data(), blocks.intrinsics.size(), blocks.quaternion_xyzw.data(),
+                      blocks.translation.data(), options.pixel_scale);
   const auto factor = row_factor(points, lens, result.state, options.loss);
   const auto loss = total_loss(points, lens, result.state, options.loss);
   if (!factor || !loss) return std::nullopt;
@@ -162,8 +162,7 @@ std::optional<std::vector<double>> ceres_covariance(const PointTable& points, co
   const std::vector<const double*> order = {blocks.intrinsics.data(), blocks.quaternion_xyzw.data(),
                                             blocks.translation.data()};
   RowMajor c(p, p);
-  if (!covariance.Compute(order, &problem) ||
-      !covariance.GetCovarianceMatrixInTangentSpace(order, c.data()))
+  if (!covariance.Compute(order, &problem) || !covariance.GetCovarianceMatrixInTangentSpace(order, c.data()))
     return std::nullopt;
   Eigen::VectorXd unit = Eigen::VectorXd::Ones(p);
   unit.head(4).setConstant(options.pixel_scale);

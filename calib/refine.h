@@ -12,7 +12,8 @@ namespace laterna {
 struct RefineOptions {
   RobustLoss loss;
   int max_iterations = 500;
-  double pixel_scale = 1000;  ///< fx, fy, cx, cy are solved for in this unit, so that all parameters are near 1
+  double pixel_scale =
+      1000;  ///< fx, fy, cx, cy are solved for in this unit, so that all parameters are near 1
 };
 
 struct Refinement {
@@ -20,7 +21,7 @@ struct Refinement {
   double loss = 0;  ///< Σ ρ(s) at `state`
   bool converged = false;
   int iterations = 0;
-  std::string termination;  ///< Ceres's own words
+  std::string termination;     ///< Ceres's own words
   std::vector<double> factor;  ///< R of the rows [J | r] at `state` (projection_rows.h), row-major
 };
 
@@ -31,8 +32,8 @@ struct Refinement {
 std::optional<Refinement> refine(const PointTable& points, const LensGradient& lens,
                                  const ProjectorState& start, const RefineOptions& options);
 
-/// (JᵀJ)⁻¹ of the tangent parameters by ceres::Covariance (DENSE_SVD) on the same block, row-major p×p, in the
-/// points' frame. None where Ceres finds it rank-deficient.
+/// (JᵀJ)⁻¹ of the tangent parameters by ceres::Covariance (DENSE_SVD) on the same block, row-major p×p, in
+/// the points' frame. None where Ceres finds it rank-deficient.
 std::optional<std::vector<double>> ceres_covariance(const PointTable& points, const LensGradient& lens,
                                                     const ProjectorState& state,
                                                     const RefineOptions& options);

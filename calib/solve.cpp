@@ -17,10 +17,10 @@ namespace {
 
 constexpr double rank_deficient = 1e-13;  // last over first scaled singular value
 
-SolveResult refused(SolveResult result, std::string reason) {
+SolveResult refused(SolveResult& result, std::string reason) {
   result.status = Status::refused;
   result.reason = std::move(reason);
-  return result;
+  return std::move(result);
 }
 
 void validate_options(glm::ivec2 size, const SolveOptions& options) {
@@ -66,8 +66,8 @@ void describe_fit(SolveResult& result, const PointTable& points, const std::vect
   result.residual_scale = residual_scale(s, p, loss);
 }
 
-// Picks the covariance that the verdict uses, and what it predicts over the estimate's own volume. False where the
-// estimate cannot map that volume.
+// Picks the covariance that the verdict uses, and what it predicts over the estimate's own volume. False
+// where the estimate cannot map that volume.
 bool predict(SolveResult& result, const std::vector<glm::dvec3>& world_points) {
   const int p = int(result.parameter_names.size());
   const auto volume = image_grid(result.estimate, volume_depths(depths_of(result.estimate, world_points)));
@@ -86,16 +86,17 @@ bool predict(SolveResult& result, const std::vector<glm::dvec3>& world_points) {
 }
 
 // Everything that makes an estimate weak, in plain sentences.
-std::vector<std::string> weaknesses(const SolveResult& r, const Correspondences& c, const SolveOptions& options,
-                                    bool maps_its_volume) {
+std::vector<std::string> weaknesses(const SolveResult& r, const Correspondences& c,
+                                    const SolveOptions& options, bool maps_its_volume) {
   std::vector<std::string> w;
   const double n = double(c.world_points.size()), p = double(r.parameter_names.size());
-  const std::string trade = fmt::format("{}; the relief is {:.2g} % of the throw", r.weakest_direction,
-                                        100 * r.relief_over_throw);
+  const std::string trade =
+      fmt::format("{}; the relief is {:.2g} % of the throw", r.weakest_direction, 100 * r.relief_over_throw);
   if (!maps_its_volume) w.push_back("the estimated lens maps no ray to parts of the projector's image");
   if (!(r.predicted_volume_rms_px <= options.tolerance_px)) {
-    w.push_back(fmt::format("the predicted volume error of {:.3g} px is above the tolerance of {:.3g} px ({})",
-                            r.predicted_volume_rms_px, options.tolerance_px, trade));
+    w.push_back(
+        fmt::format("the predicted volume error of {:.3g} px is above the tolerance of {:.3g} px ({})",
+                    r.predicted_volume_rms_px, options.tolerance_px, trade));
   }
   const auto& k = r.estimate.intrinsics;
   const double focal_share = std::max(r.sigma[0] / k.fx, r.sigma[1] / k.fy);
@@ -106,18 +107,21 @@ std::vector<std::string> weaknesses(const SolveResult& r, const Correspondences&
   }
   const double spare = std::max(1.0, 2 * n - p);
   if (r.residual_scale > 2 * std::sqrt(1 + 5 * std::sqrt(2 / spare))) {
-    w.push_back(fmt::format("the residual rms is {:.2g} times what the sigmas explain: lens distortion, wrong "
-                            "mesh or outliers",
-                            r.residual_scale));
+    w.push_back(
+        fmt::format("the residual rms is {:.2g} times what the sigmas explain: lens distortion, wrong "
+                    "mesh or outliers",
+                    r.residual_scale));
   }
   const bool robust = options.loss.kind != RobustLoss::Kind::none;
   const double bearable = options.loss.kind == RobustLoss::Kind::huber ? 0.15 : 0.5;
-  if (robust && r.outlier_share > bearable) w.push_back(fmt::format("{:.0f} % of the correspondences are outliers, more than this loss bears",
+  if (robust && r.outlier_share > bearable)
+    w.push_back(fmt::format("{:.0f} % of the correspondences are outliers, more than this loss bears",
                             100 * r.outlier_share));
   if (!r.clusters_suffice && !c.cluster.empty()) {
-    w.push_back(fmt::format("only {} blocks of the camera image hold correspondences and {} are needed: how far "
-                            "errors are correlated cannot be told",
-                            r.clusters, 3 * r.parameter_names.size()));
+    w.push_back(
+        fmt::format("only {} blocks of the camera image hold correspondences and {} are needed: how far "
+                    "errors are correlated cannot be told",
+                    r.clusters, 3 * r.parameter_names.size()));
   }
   return w;
 }
@@ -132,32 +136,35 @@ SolveResult solve(const Correspondences& c, glm::ivec2 size, const SolveOptions&
   SolveResult result;
   result.parameter_names = parameter_names(lens.parameter_count() - 4);
   const GeometryReport geometry = check_geometry(c, p);
-  if (geometry.verdict != Geometry::sound) return refused(std::move(result), geometry.reason);
+  if (geometry.verdict != Geometry::sound) return refused(result, geometry.reason);
 
   const WorldNormalisation normalisation = normalisation_of(c.world_points);
   const PointTable points = point_table(c, normalisation);
   const BestRefinement best = best_refinement(c, points, normalisation, size, lens, geometry, options);
-  if (!best.refinement) return refused(std::move(result), best.refusal);
+  if (!best.refinement) return refused(result, best.refusal);
   const Refinement& fit = *best.refinement;
   result.iterations = fit.iterations;
   result.termination = fit.termination;
   result.estimate = device_of(fit.state, size, options.lens_model, normalisation);
   result.relief_over_throw = relief_over_throw(c, geometry, result.estimate.device_from_world);
-  describe_fit(result, points, *squared_residuals(points, lens, fit.state), p, options.loss);
+  const auto squared = squared_residuals(points, lens, fit.state);
+  if (!squared) return refused(result, "some points lie behind the projector that fits best");
+  describe_fit(result, points, *squared, p, options.loss);
 
   const Spectrum spectrum = scaled_spectrum(fit.factor, p);
   result.scaled_singular_values = spectrum.singular_values;
   result.smallest_gap = spectrum.singular_values.back() / spectrum.singular_values.front();
   result.weakest_direction = direction_in_words(spectrum.weakest, result.parameter_names);
-  if (!fit.converged) return refused(std::move(result), fmt::format("the solver did not converge ({}): {} (relief {:.2g} % of the throw)",
-                                                  fit.termination, result.weakest_direction,
-                                                  100 * result.relief_over_throw));
+  if (!fit.converged)
+    return refused(result,
+                   fmt::format("the solver did not converge ({}): {} (relief {:.2g} % of the throw)",
+                               fit.termination, result.weakest_direction, 100 * result.relief_over_throw));
   const auto independent =
       result.smallest_gap > rank_deficient
           ? ceres_covariance(points, lens, fit.state, {options.loss, 0, double(std::max(size.x, size.y))})
           : std::nullopt;
   if (!independent) {
-    return refused(std::move(result),
+    return refused(result,
                    fmt::format("the points do not determine the projector: {} (relief {:.2g} % of the throw)",
                                result.weakest_direction, 100 * result.relief_over_throw));
   }
@@ -167,7 +174,7 @@ SolveResult solve(const Correspondences& c, glm::ivec2 size, const SolveOptions&
   if (clustered) result.covariance_clustered = world_covariance(*clustered, pose, normalisation);
   result.clusters = points.cluster_count();
   if (!(result.estimate.intrinsics.fx > 0 && result.estimate.intrinsics.fy > 0))
-    return refused(std::move(result), "the best fit has a negative focal length: the mapping is mirrored");
+    return refused(result, "the best fit has a negative focal length: the mapping is mirrored");
   const bool maps_its_volume = predict(result, c.world_points);
   const auto weak = weaknesses(result, c, options, maps_its_volume);
   result.status = weak.empty() ? Status::ok : Status::weak;

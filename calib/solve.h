@@ -21,8 +21,8 @@ struct SolveOptions {
   std::optional<Device> start;  ///< tried beside the linear starts; of the same lens model
 };
 
-/// ok: believe the estimate and its covariance. weak: an estimate exists, but the data do not support it as far as
-/// asked; `reason` says why. refused: no estimate.
+/// ok: believe the estimate and its covariance. weak: an estimate exists, but the data do not support it as
+/// far as asked; `reason` says why. refused: no estimate.
 enum class Status { ok, weak, refused };
 
 struct SolveResult {
@@ -30,42 +30,42 @@ struct SolveResult {
   std::string reason;  ///< one sentence, or several joined by "; "; empty where ok
   Device estimate;     ///< intrinsics, pose, lens; meaningless where refused
 
-  /// Tangent parameters: fx, fy, cx, cy (px), lens, rotation (small left rotation vector w in the device frame, rad:
-  /// R = exp([w]×)·R̂), translation (m).
+  /// Tangent parameters: fx, fy, cx, cy (px), lens, rotation (small left rotation vector w in the device
+  /// frame, rad: R = exp([w]×)·R̂), translation (m).
   std::vector<std::string> parameter_names;
   /// Row-major p×p. Independent noise: (JᵀWJ)⁻¹ with W = 1/sigma_px², by Ceres.
   std::vector<double> covariance_independent;
   /// Delete-one-cluster jackknife (covariance.h). Empty where a cluster cannot be left out.
   std::vector<double> covariance_clustered;
-  /// The one that `sigma`, the prediction and the verdict use: clustered; with fewer than 3·p clusters the one of
-  /// the two that predicts the larger volume error.
+  /// The one that `sigma`, the prediction and the verdict use: clustered; with fewer than 3·p clusters the
+  /// one of the two that predicts the larger volume error.
   std::vector<double> covariance;
   std::vector<double> sigma;  ///< standard deviation of each parameter
   bool clusters_suffice = false;
   std::size_t clusters = 0;
 
-  double fit_rms_px = 0;         ///< sqrt(mean(du² + dv²)) over all correspondences
-  double reduced_chi2 = 0;       ///< Σ ((du² + dv²)/σ²) / (2n - p)
-  double residual_scale = 0;     ///< residuals over what the sigmas explain; with a robust loss by the median
-  double outlier_share = 0;      ///< correspondences with (du² + dv²)/σ² > 13.8, where noise leaves 0.1 %
+  double fit_rms_px = 0;      ///< sqrt(mean(du² + dv²)) over all correspondences
+  double reduced_chi2 = 0;    ///< Σ ((du² + dv²)/σ²) / (2n - p)
+  double residual_scale = 0;  ///< residuals over what the sigmas explain; with a robust loss by the median
+  double outlier_share = 0;   ///< correspondences with (du² + dv²)/σ² > 13.8, where noise leaves 0.1 %
   double predicted_volume_rms_px = 0;              ///< from `covariance`, over the estimate's own volume grid
   double predicted_volume_rms_independent_px = 0;  ///< from `covariance_independent`
   double relief_over_throw = 0;                    ///< thickness of the points over their distance
 
   int iterations = 0;
-  std::string termination;                       ///< Ceres's own words
+  std::string termination;                     ///< Ceres's own words
   std::vector<double> scaled_singular_values;  ///< of the Jacobian with columns scaled to 1, largest first
-  double smallest_gap = 0;                       ///< last over first of them
-  std::string weakest_direction;                 ///< in words: which parameters trade off
+  double smallest_gap = 0;                     ///< last over first of them
+  std::string weakest_direction;               ///< in words: which parameters trade off
 };
 
-/// Maximum likelihood for u, v with Gaussian noise sigma_px (or under `loss`): Ceres from DLT, from RANSAC where a
-/// loss is robust or DLT fits badly, and from nominal focal lengths where the relief is thin or the linear starts end
-/// badly; the lowest cost wins.
-/// Refused: too few, identical, collinear or coplanar points, pixels on a line, a mirrored mapping, points behind the
-/// projector, a rank-deficient Jacobian, no convergence. Weak: predicted volume error above the tolerance, residuals
-/// over twice what the sigmas explain, too few clusters, sigma of fx or fy above a tenth of it, more outliers than the
-/// loss bears (Huber 15 %, Cauchy 50 %), or an estimate that cannot map its own volume. The verdict never looks at a truth.
+/// Maximum likelihood for u, v with Gaussian noise sigma_px (or under `loss`): Ceres from DLT, from RANSAC
+/// where a loss is robust or DLT fits badly, and from nominal focal lengths where the relief is thin or the
+/// linear starts end badly; the lowest cost wins. Refused: too few, identical, collinear or coplanar points,
+/// pixels on a line, a mirrored mapping, points behind the projector, a rank-deficient Jacobian, no
+/// convergence. Weak: predicted volume error above the tolerance, residuals over twice what the sigmas
+/// explain, too few clusters, sigma of fx or fy above a tenth of it, more outliers than the loss bears (Huber
+/// 15 %, Cauchy 50 %), or an estimate that cannot map its own volume. The verdict never looks at a truth.
 /// Throws InputError where correspondences, size, lens model or start are malformed.
 SolveResult solve(const Correspondences& correspondences, glm::ivec2 projector_size,
                   const SolveOptions& options = {});

@@ -80,8 +80,7 @@ void fold(std::vector<double>& r, double* block, std::size_t rows, std::size_t s
     }
     for (int first = 0; first < n; first += 4) {
       double* group[4];
-      for (int j = 0; j < 4; ++j)
-        group[j] = block + others[std::min(first + j, n - 1)] * stride + span.begin;
+      for (int j = 0; j < 4; ++j) group[j] = block + others[std::min(first + j, n - 1)] * stride + span.begin;
       dot4(v, group, count, dots);
       for (int j = 0; j < 4; ++j) {
         if (first + j >= n) {

@@ -82,9 +82,8 @@ ErrorSummary summarise(const Device& truth, const Device& estimate, const std::v
   }
   s.max = s.failed ? infinity : std::sqrt(s.max);
   s.rms = s.failed ? infinity : std::sqrt(sum / double(std::max<std::size_t>(1, s.points)));
-  s.predicted_rms = covariance.empty()
-                        ? std::numeric_limits<double>::quiet_NaN()
-                        : predicted_rms(estimate, covariance, points).value_or(infinity);
+  s.predicted_rms = covariance.empty() ? std::numeric_limits<double>::quiet_NaN()
+                                       : predicted_rms(estimate, covariance, points).value_or(infinity);
   return s;
 }
 
@@ -93,6 +92,7 @@ ErrorSummary summarise(const Device& truth, const Device& estimate, const std::v
 std::vector<double> volume_depths(std::vector<double> lit) {
   const double first = percentile(lit, 0.05), last = percentile(lit, 0.95);
   std::vector<double> depths;
+  depths.reserve(12);
   for (int i = 0; i < 12; ++i) depths.push_back(between(first, last, i, 11));
   return depths;
 }
@@ -102,6 +102,7 @@ std::vector<double> extrapolation_depths(std::vector<double> lit) {
   const double first = 0.8 * *nearest, last = 1.25 * *farthest;
   const double low = percentile(lit, 0.05), high = percentile(lit, 0.95);
   std::vector<double> depths;
+  depths.reserve(12);
   for (int i = 0; i < 6; ++i) depths.push_back(between(first, low, i, 6));
   for (int i = 1; i <= 6; ++i) depths.push_back(between(high, last, i, 6));
   return depths;
@@ -114,7 +115,8 @@ std::vector<glm::dvec3> image_grid(const Device& device, const std::vector<doubl
   std::vector<glm::dvec3> points;
   for (int j = 0; j < 12; ++j) {
     for (int i = 0; i < 16; ++i) {
-      const auto ray = lens.unproject({between(-0.5, size.x - 0.5, i, 15), between(-0.5, size.y - 0.5, j, 11)});
+      const auto ray =
+          lens.unproject({between(-0.5, size.x - 0.5, i, 15), between(-0.5, size.y - 0.5, j, 11)});
       for (const double depth : depths_m)
         if (ray) points.push_back(apply(world_from_device, *ray * depth));
     }
@@ -137,8 +139,8 @@ std::vector<glm::dvec2> error_vectors(const Device& truth, const Device& estimat
   std::vector<glm::dvec2> errors(points.size());
   in_chunks(points.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      errors[i] =
-          glm::dvec2(estimated_projection.project(points[i])) - glm::dvec2(true_projection.project(points[i]));
+      errors[i] = glm::dvec2(estimated_projection.project(points[i])) -
+                  glm::dvec2(true_projection.project(points[i]));
     }
   });
   return errors;
@@ -181,7 +183,8 @@ Verification verify(const Device& truth, const Device& estimate, const std::vect
                                  truth.intrinsics.size.x, truth.intrinsics.size.y));
   }
   const std::vector<double> depths = depths_of(truth, surface_points);
-  if (depths.empty()) throw InputError("verify: no surface point lies in front of the projector, expected some");
+  if (depths.empty())
+    throw InputError("verify: no surface point lies in front of the projector, expected some");
   return {summarise(truth, estimate, covariance, surface_points),
           summarise(truth, estimate, covariance, image_grid(truth, volume_depths(depths))),
           summarise(truth, estimate, covariance, image_grid(truth, extrapolation_depths(depths)))};

@@ -1,4 +1,5 @@
-// How far an estimated projector is from the true one, in projector pixels, and how far noise alone would put it.
+// How far an estimated projector is from the true one, in projector pixels, and how far noise alone would put
+// it.
 #pragma once
 
 #include "sim/device.h"
@@ -30,8 +31,8 @@ struct Verification {
 std::vector<double> volume_depths(std::vector<double> lit_depths_m);
 std::vector<double> extrapolation_depths(std::vector<double> lit_depths_m);
 
-/// World points on 16×12 pixels × the given depths: pixel positions evenly from edge to edge, u from -0.5 to W-0.5
-/// and v from -0.5 to H-0.5. Pixels that the device's lens maps nowhere give no points.
+/// World points on 16×12 pixels × the given depths: pixel positions evenly from edge to edge, u from -0.5 to
+/// W-0.5 and v from -0.5 to H-0.5. Pixels that the device's lens maps nowhere give no points.
 std::vector<glm::dvec3> image_grid(const Device& device, const std::vector<double>& depths_m);
 
 /// Axial depths of the points that a device has in front of it.
@@ -41,15 +42,16 @@ std::vector<double> depths_of(const Device& device, const std::vector<glm::dvec3
 std::vector<glm::dvec2> error_vectors(const Device& truth, const Device& estimate,
                                       const std::vector<glm::dvec3>& world_points);
 
-/// sqrt(mean(trace(J·C·Jᵀ))) over the points that the device projects. `covariance`: row-major p×p, tangent order
-/// fx, fy, cx, cy, lens, rotation (left, device frame, rad), translation (m); world frame. None where no point can
-/// be projected.
+/// sqrt(mean(trace(J·C·Jᵀ))) over the points that the device projects. `covariance`: row-major p×p, tangent
+/// order fx, fy, cx, cy, lens, rotation (left, device frame, rad), translation (m); world frame. None where
+/// no point can be projected.
 std::optional<double> predicted_rms(const Device& device, const std::vector<double>& covariance,
                                     const std::vector<glm::dvec3>& world_points);
 
-/// The three sets of DESIGN.md, laid out by the true device; `covariance` may be empty. Throws InputError where no
-/// surface point lies in front of the true device, the images differ in size, or the covariance has another size
-/// than the estimate's parameters. A point that the estimate cannot project is counted and makes rms and max infinite.
+/// The three sets of DESIGN.md, laid out by the true device; `covariance` may be empty. Throws InputError
+/// where no surface point lies in front of the true device, the images differ in size, or the covariance has
+/// another size than the estimate's parameters. A point that the estimate cannot project is counted and makes
+/// rms and max infinite.
 Verification verify(const Device& truth, const Device& estimate, const std::vector<double>& covariance,
                     const std::vector<glm::dvec3>& surface_points);
 

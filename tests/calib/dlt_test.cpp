@@ -55,7 +55,7 @@ TEST(Dlt, NoiseLeavesPixelsOfTheirSigma) {
   const auto r = dlt(c, truth.intrinsics.size);
   ASSERT_EQ(r.status, DltStatus::ok);
   EXPECT_NEAR(r.rms_px, 0.3 * std::sqrt(2.0), 0.02);  // 3 standard deviations of an rms over 4000 numbers
-  EXPECT_LT(volume_rms(truth, r, c), 0.1);            // about six times the bound's 0.03, which DLT nearly reaches
+  EXPECT_LT(volume_rms(truth, r, c), 0.1);  // about six times the bound's 0.03, which DLT nearly reaches
 }
 
 TEST(Dlt, MirroredAndBehind) {
@@ -69,7 +69,8 @@ TEST(Dlt, MirroredAndBehind) {
 
   c = testing::scattered(truth, 100, 2, 4, 0.1, random);
   const glm::dvec3 center = center_in_world(truth.device_from_world);
-  for (int i = 0; i < 30; ++i) c.world_points[i] = 2.0 * center - c.world_points[i];  // same pixels, from behind
+  for (int i = 0; i < 30; ++i)
+    c.world_points[i] = 2.0 * center - c.world_points[i];  // same pixels, from behind
   const auto both = dlt(c, truth.intrinsics.size);
   EXPECT_EQ(both.status, DltStatus::both_sides);
   EXPECT_THAT(both.reason, HasSubstr("30 of 100"));

@@ -86,7 +86,8 @@ TEST(GeometryCheck, IdenticalCollinearCoplanar) {
       const glm::dvec3 origin(away, away, -away);
       same.world_points[i] = origin;
       line.world_points[i] = origin + glm::dvec3(0.3, -0.4, 0.7) * (0.1 * i);
-      plane.world_points[i] = origin + glm::dvec3(0.3, 0.4, 0.7) * (0.1 * i) + glm::dvec3(1.1, -0.3, 0.2) * (0.01 * i * i);
+      plane.world_points[i] =
+          origin + glm::dvec3(0.3, 0.4, 0.7) * (0.1 * i) + glm::dvec3(1.1, -0.3, 0.2) * (0.01 * i * i);
     }
     EXPECT_EQ(check_geometry(same, 10).verdict, Geometry::identical) << away;
     EXPECT_EQ(check_geometry(line, 10).verdict, Geometry::collinear) << away;

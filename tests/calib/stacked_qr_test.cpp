@@ -52,7 +52,8 @@ Matrix reference(const Matrix& a) {
 }
 
 TEST(StackedQr, ByHand) {
-  const Matrix a = (Matrix(2, 2) << 3, 1, 4, 2).finished();  // |(3,4)| = 5, (3·1 + 4·2)/5 = 2.2, det 2 / 5 = 0.4
+  const Matrix a =
+      (Matrix(2, 2) << 3, 1, 4, 2).finished();  // |(3,4)| = 5, (3·1 + 4·2)/5 = 2.2, det 2 / 5 = 0.4
   const Matrix r = positive(as_matrix(*triangular_factor(rows_of_matrix(a, 1)), 2));
   EXPECT_NEAR(r(0, 0), 5, 1e-15);
   EXPECT_NEAR(r(0, 1), 2.2, 1e-15);
@@ -67,7 +68,9 @@ TEST(StackedQr, EqualsEigensFactor) {
       const Matrix r = as_matrix(*triangular_factor(rows_of_matrix(a, per_item)), 11);
       // Rounding grows with √rows: 1e-12 of a norm near √rows.
       EXPECT_LT((r.transpose() * r - a.transpose() * a).norm(), 1e-12 * a.squaredNorm()) << items;
-      if (items * per_item >= 11) { EXPECT_LT((positive(r) - reference(a)).norm(), 1e-12 * a.norm()) << items; }
+      if (items * per_item >= 11) {
+        EXPECT_LT((positive(r) - reference(a)).norm(), 1e-12 * a.norm()) << items;
+      }
     }
   }
 }
@@ -76,7 +79,8 @@ TEST(StackedQr, SupportChangesNothingButTime) {
   Matrix a = random_matrix(2 * 5000, 5);
   for (Eigen::Index i = 0; i < a.rows(); ++i) a(i, i % 2 == 0 ? 1 : 0) = 0;
   StackedRows rows = rows_of_matrix(a, 2);
-  rows.support = {RowSupport::first, RowSupport::second, RowSupport::both, RowSupport::both, RowSupport::both};
+  rows.support = {RowSupport::first, RowSupport::second, RowSupport::both, RowSupport::both,
+                  RowSupport::both};
   const Matrix r = as_matrix(*triangular_factor(rows), 5);
   EXPECT_LT((positive(r) - reference(a)).norm(), 1e-12 * a.norm());
 }

@@ -11,7 +11,8 @@
 
 namespace laterna::testing {
 
-inline Device projector(glm::ivec2 size, double f, glm::dvec2 principal_point, const Rigid& device_from_world) {
+inline Device projector(glm::ivec2 size, double f, glm::dvec2 principal_point,
+                        const Rigid& device_from_world) {
   Device d;
   d.name = "synthetic";
   d.intrinsics = {size, f, f, principal_point.x, principal_point.y};

@@ -129,7 +129,9 @@ TEST(Verify, BadInput) {
   Device other = truth;
   other.intrinsics.size = {640, 480};
   EXPECT_THAT(testing::input_error([&] { verify(truth, other, {}, surface(truth)); }), HasSubstr("640x480"));
-  EXPECT_THAT(testing::input_error([&] { verify(truth, truth, {1, 2, 3}, surface(truth)); }),
+  EXPECT_THAT(testing::input_error([&] {
+                verify(truth, truth, {1, 2, 3}, surface(truth));
+              }),
               HasSubstr("3 numbers, expected 10×10"));
   EXPECT_THAT(testing::input_error([&] { verify(truth, truth, {}, {}); }), HasSubstr("no surface point"));
 }
