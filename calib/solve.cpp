@@ -147,7 +147,9 @@ SolveResult solve(const Correspondences& c, glm::ivec2 size, const SolveOptions&
   result.termination = fit.termination;
   result.estimate = device_of(fit.state, size, options.lens_model, normalisation);
   result.relief_over_throw = relief_over_throw(c, geometry, result.estimate.device_from_world);
-  describe_fit(result, points, squared_residuals(points, lens, fit.state).value(), p, options.loss);
+  const auto squared = squared_residuals(points, lens, fit.state);
+  if (!squared) return refused(result, "some points lie behind the projector that fits best");
+  describe_fit(result, points, *squared, p, options.loss);
 
   const Spectrum spectrum = scaled_spectrum(fit.factor, p);
   result.scaled_singular_values = spectrum.singular_values;
