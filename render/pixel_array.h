@@ -2,8 +2,6 @@
 // memory.
 #pragma once
 
-#include <sys/mman.h>
-
 #include <cstddef>
 #include <memory>
 #include <new>
@@ -19,21 +17,6 @@ struct UninitialisedAllocator : std::allocator<T> {
   struct rebind {
     using other = UninitialisedAllocator<U>;
   };
-  /// Large arrays ask for large memory pages: the first touch of small ones costs as much as tracing a ray.
-  T* allocate(std::size_t count) {
-    constexpr std::size_t page = std::size_t(2) << 20;
-    const std::size_t bytes = count * sizeof(T);
-    if (bytes < page) return static_cast<T*>(::operator new(bytes, std::align_val_t(page_alignment(bytes))));
-    void* memory = ::operator new(bytes, std::align_val_t(page));
-    madvise(memory, bytes, MADV_HUGEPAGE);
-    return static_cast<T*>(memory);
-  }
-  void deallocate(T* memory, std::size_t count) {
-    ::operator delete(memory, std::align_val_t(page_alignment(count * sizeof(T))));
-  }
-  static constexpr std::size_t page_alignment(std::size_t bytes) {
-    return bytes < (std::size_t(2) << 20) ? 64 : std::size_t(2) << 20;
-  }
   template <class U, class... Arguments>
   void construct(U* where, Arguments&&... arguments) {
     if constexpr (sizeof...(Arguments) == 0) {
