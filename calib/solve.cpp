@@ -17,10 +17,10 @@ namespace {
 
 constexpr double rank_deficient = 1e-13;  // last over first scaled singular value
 
-SolveResult refused(SolveResult result, std::string reason) {
+SolveResult refused(SolveResult& result, std::string reason) {
   result.status = Status::refused;
   result.reason = std::move(reason);
-  return result;
+  return std::move(result);
 }
 
 void validate_options(glm::ivec2 size, const SolveOptions& options) {
@@ -136,25 +136,27 @@ SolveResult solve(const Correspondences& c, glm::ivec2 size, const SolveOptions&
   SolveResult result;
   result.parameter_names = parameter_names(lens.parameter_count() - 4);
   const GeometryReport geometry = check_geometry(c, p);
-  if (geometry.verdict != Geometry::sound) return refused(std::move(result), geometry.reason);
+  if (geometry.verdict != Geometry::sound) return refused(result, geometry.reason);
 
   const WorldNormalisation normalisation = normalisation_of(c.world_points);
   const PointTable points = point_table(c, normalisation);
   const BestRefinement best = best_refinement(c, points, normalisation, size, lens, geometry, options);
-  if (!best.refinement) return refused(std::move(result), best.refusal);
+  if (!best.refinement) return refused(result, best.refusal);
   const Refinement& fit = *best.refinement;
   result.iterations = fit.iterations;
   result.termination = fit.termination;
   result.estimate = device_of(fit.state, size, options.lens_model, normalisation);
   result.relief_over_throw = relief_over_throw(c, geometry, result.estimate.device_from_world);
-  describe_fit(result, points, *squared_residuals(points, lens, fit.state), p, options.loss);
+  const auto squared = squared_residuals(points, lens, fit.state);
+  if (!squared) return refused(result, "some points lie behind the projector that fits best");
+  describe_fit(result, points, *squared, p, options.loss);
 
   const Spectrum spectrum = scaled_spectrum(fit.factor, p);
   result.scaled_singular_values = spectrum.singular_values;
   result.smallest_gap = spectrum.singular_values.back() / spectrum.singular_values.front();
   result.weakest_direction = direction_in_words(spectrum.weakest, result.parameter_names);
   if (!fit.converged)
-    return refused(std::move(result),
+    return refused(result,
                    fmt::format("the solver did not converge ({}): {} (relief {:.2g} % of the throw)",
                                fit.termination, result.weakest_direction, 100 * result.relief_over_throw));
   const auto independent =
@@ -162,7 +164,7 @@ SolveResult solve(const Correspondences& c, glm::ivec2 size, const SolveOptions&
           ? ceres_covariance(points, lens, fit.state, {options.loss, 0, double(std::max(size.x, size.y))})
           : std::nullopt;
   if (!independent) {
-    return refused(std::move(result),
+    return refused(result,
                    fmt::format("the points do not determine the projector: {} (relief {:.2g} % of the throw)",
                                result.weakest_direction, 100 * result.relief_over_throw));
   }
@@ -172,7 +174,7 @@ SolveResult solve(const Correspondences& c, glm::ivec2 size, const SolveOptions&
   if (clustered) result.covariance_clustered = world_covariance(*clustered, pose, normalisation);
   result.clusters = points.cluster_count();
   if (!(result.estimate.intrinsics.fx > 0 && result.estimate.intrinsics.fy > 0))
-    return refused(std::move(result), "the best fit has a negative focal length: the mapping is mirrored");
+    return refused(result, "the best fit has a negative focal length: the mapping is mirrored");
   const bool maps_its_volume = predict(result, c.world_points);
   const auto weak = weaknesses(result, c, options, maps_its_volume);
   result.status = weak.empty() ? Status::ok : Status::weak;

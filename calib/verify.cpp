@@ -92,6 +92,7 @@ ErrorSummary summarise(const Device& truth, const Device& estimate, const std::v
 std::vector<double> volume_depths(std::vector<double> lit) {
   const double first = percentile(lit, 0.05), last = percentile(lit, 0.95);
   std::vector<double> depths;
+  depths.reserve(12);
   for (int i = 0; i < 12; ++i) depths.push_back(between(first, last, i, 11));
   return depths;
 }
@@ -101,6 +102,7 @@ std::vector<double> extrapolation_depths(std::vector<double> lit) {
   const double first = 0.8 * *nearest, last = 1.25 * *farthest;
   const double low = percentile(lit, 0.05), high = percentile(lit, 0.95);
   std::vector<double> depths;
+  depths.reserve(12);
   for (int i = 0; i < 6; ++i) depths.push_back(between(first, low, i, 6));
   for (int i = 1; i <= 6; ++i) depths.push_back(between(high, last, i, 6));
   return depths;

@@ -86,25 +86,29 @@ void check_placement_ways(const DeviceSpec& s, const std::string& what) {
     fail(what, "translation is given without rotation_vector_rad or quaternion_wxyz");
 }
 
+// The stand-ins below for absent values are never used once check_ways() has passed, and validation refuses
+// them.
 Intrinsics intrinsics_of(const DeviceSpec& s) {
-  const glm::ivec2 size = *s.size;
+  const glm::ivec2 size = s.size.value_or(glm::ivec2(0));
   const double aspect = s.aspect.value_or(double(size.x) / size.y);
   if (s.throw_ratio) return intrinsics_from_throw(size, *s.throw_ratio, s.lens_shift.value_or(glm::dvec2(0)));
   if (s.fov_y_deg) return intrinsics_from_fov_y(size, glm::radians(*s.fov_y_deg), aspect);
   if (s.fov_x_deg) return intrinsics_from_fov_x(size, glm::radians(*s.fov_x_deg), aspect);
-  return {size, *s.fx, s.fy.value_or(*s.fx), s.cx.value_or((size.x - 1) / 2.0),
-          s.cy.value_or((size.y - 1) / 2.0)};
+  const double fx = s.fx.value_or(0);
+  return {size, fx, s.fy.value_or(fx), s.cx.value_or((size.x - 1) / 2.0), s.cy.value_or((size.y - 1) / 2.0)};
 }
 
 Rigid placement_of(const DeviceSpec& s) {
+  const glm::dvec3 translation = s.translation.value_or(glm::dvec3(0));
   if (s.position)
-    return device_from_world_looking_at(*s.position, *s.look_at, s.up.value_or(glm::dvec3(0, 0, 1)));
-  if (s.rotation_vector_rad) return rigid_from_rotation_vector(*s.rotation_vector_rad, *s.translation);
+    return device_from_world_looking_at(*s.position, s.look_at.value_or(*s.position),
+                                        s.up.value_or(glm::dvec3(0, 0, 1)));
+  if (s.rotation_vector_rad) return rigid_from_rotation_vector(*s.rotation_vector_rad, translation);
   if (s.quaternion_wxyz) {
     const glm::dvec4& q = *s.quaternion_wxyz;
-    return rigid_from_quaternion(glm::dquat(q[0], q[1], q[2], q[3]), *s.translation);
+    return rigid_from_quaternion(glm::dquat(q[0], q[1], q[2], q[3]), translation);
   }
-  return rigid_from_rows(*s.device_from_world, "device_from_world");
+  return rigid_from_rows(s.device_from_world.value_or(Matrix3x4{}), "device_from_world");
 }
 
 }  // namespace
@@ -129,7 +133,7 @@ Device device_of(const DeviceSpec& spec, const std::filesystem::path& folder, co
     device.planes = {spec.near_m, spec.far_m};
     validate(device.intrinsics, "intrinsics");
     validate(device.planes, "light planes");
-    LensProjection(device.intrinsics, device.lens);
+    [[maybe_unused]] const LensProjection usable(device.intrinsics, device.lens);
     rigid_from_rows(rows_of(device.device_from_world), "device_from_world");
     return device;
   } catch (const InputError& error) {

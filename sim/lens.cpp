@@ -23,12 +23,26 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
+// mrcal aborts, or reads beyond its control points, on the splined models that are refused here.
+bool is_usable_spline(const mrcal_LENSMODEL_SPLINED_STEREOGRAPHIC__config_t& spline) {
+  const bool known_order = spline.order == 2 || spline.order == 3;
+  return known_order && spline.Nx > spline.order && spline.Ny > spline.order && spline.Nx <= 512 &&
+         spline.Ny <= 512 && spline.fov_x_deg >= 1 && spline.fov_x_deg < 360;
+}
+
 mrcal_lensmodel_t parse_model(const std::string& name) {
   mrcal_lensmodel_t lensmodel{};
   const bool known = mrcal_lensmodel_from_name(&lensmodel, name.c_str());
   const auto type = lensmodel.type;
   const bool accepted = known && type != MRCAL_LENSMODEL_LONLAT && type != MRCAL_LENSMODEL_LATLON &&
                         type != MRCAL_LENSMODEL_CAHVORE;
+  if (accepted && type == MRCAL_LENSMODEL_SPLINED_STEREOGRAPHIC &&
+      !is_usable_spline(lensmodel.LENSMODEL_SPLINED_STEREOGRAPHIC__config)) {
+    throw InputError(
+        fmt::format("lens model is \"{}\", expected order 2 or 3, Nx and Ny above the order and at "
+                    "most 512, and fov_x_deg from 1 to 359",
+                    name));
+  }
   if (!accepted) {
     throw InputError(
         fmt::format("lens model is \"{}\", expected LENSMODEL_PINHOLE, _STEREOGRAPHIC, _OPENCV4, _OPENCV5, "

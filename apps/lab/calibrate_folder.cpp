@@ -55,8 +55,9 @@ std::vector<FolderEstimate> calibrate_folder(const std::filesystem::path& folder
                            sequence.projector, sequence.camera));
     const DecodedMap map = decode_sequence(folder, sequence, decode_options).map;
     const int camera = camera_index(scene, sequence, map);
-    if (!surfaces.contains(camera))
-      surfaces.emplace(camera, trace_surface(rays, scene, scene.cameras[camera]));
+    if (!points.contains(camera)) {
+      points.emplace(camera, points_world(trace_surface(rays, scene, scene.cameras[camera]), scene));
+    }
     Collected& collected = projectors[sequence.projector];
     collected.size = sequence.projector_size;
     append_correspondences(map, points.at(camera), camera, TrialOptions{}.block_px,

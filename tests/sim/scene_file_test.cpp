@@ -62,7 +62,7 @@ TEST(SceneFile, FixedKeysAreReadAsTheyStand) {
   ASSERT_EQ(scene.meshes.size(), 1u);
   EXPECT_EQ(scene.meshes[0].file, "scene.ply");
   EXPECT_EQ(scene.meshes[0].albedo, 0.8);
-  EXPECT_EQ((*scene.meshes[0].world_from_object)[2], (std::array<double, 4>{0, 0, 1, 0}));
+  EXPECT_EQ(scene.meshes[0].world_from_object.value_or(Matrix3x4{})[2], (std::array<double, 4>{0, 0, 1, 0}));
   ASSERT_EQ(scene.projectors.size(), 1u);
   const Device device = device_of(scene.projectors[0].device, {}, "projector");
   EXPECT_EQ(device.name, "left");
@@ -98,7 +98,7 @@ TEST(SceneFile, EveryFieldSurvivesWritingAndReading) {
   auto random = testing::generator();
   std::uniform_real_distribution<double> uniform(0.1, 0.9);
   const auto number = [&] { return uniform(random); };
-  for (int i = 0; i < 50; ++i) {
+  for (int i = 0; i < 20; ++i) {
     SceneSpec scene;
     scene.name = "quotes \" back\\slash and ünïcode";
     scene.ambient_lx = number();
@@ -305,6 +305,12 @@ TEST(SceneFile, UnusableDevices) {
               AllOf(StartsWith(camera), HasSubstr("\"FISH\"")));
   EXPECT_THAT(error_of(with_device(lines + "lens = { model = \"LENSMODEL_OPENCV4\", parameters = [1] }\n")),
               AllOf(StartsWith(camera), HasSubstr("found 1 parameters, expected 4")));
+  // mrcal itself would abort on this one.
+  EXPECT_THAT(
+      error_of(with_device(
+          lines +
+          "lens = { model = \"LENSMODEL_SPLINED_STEREOGRAPHIC_order=5_Nx=4_Ny=4_fov_x_deg=100\" }\n")),
+      AllOf(StartsWith(camera), HasSubstr("expected order 2 or 3")));
   EXPECT_THAT(error_of(with_device(lines + "sensor = { bit_depth = 17 }\n")),
               StartsWith("scene.toml:9: bit_depth in sensor of [[camera]] is 17"));
 }
@@ -376,7 +382,7 @@ TEST(SceneFile, FileToWorldByHand) {
 }
 
 TEST(SceneFile, BytesThatNoParserShouldSee) {
-  EXPECT_THAT(error_of(std::string("ambient_lx = 1\nname = \"a\0b\"", 28)),
+  EXPECT_THAT(error_of(std::string("ambient_lx = 1\nname = \"a\0b\"", 27)),
               AllOf(StartsWith("scene.toml:2: "), HasSubstr("0x00")));
   EXPECT_THAT(error_of("name = \"\xff\"\n"), AllOf(StartsWith("scene.toml:1: "), HasSubstr("UTF-8")));
   EXPECT_THAT(error_of("name = \"\xc0\xaf\"\n"), HasSubstr("UTF-8"));  // overlong
@@ -407,8 +413,10 @@ TEST(SceneFile, SyntaxErrorsHaveALine) {
 
 TEST(SceneFile, BytesFlippedAtRandomAreReadOrRefused) {
   auto random = testing::generator();
-  const std::string whole =
-      std::string(fixed_keys) + "[[camera]]\n" + device_lines + "sensor = { bit_depth = 8 }\n";
+  // A pinhole: searching where a lens folds over would take most of the time.
+  const std::string pinhole =
+      replaced(replaced(fixed_keys, "OPENCV4", "PINHOLE"), "[0.0, 0.0, 0.0, 0.0]", "[]");
+  const std::string whole = pinhole + "[[camera]]\n" + device_lines + "sensor = { bit_depth = 8 }\n";
   int read = 0, refused = 0;
   for (int i = 0; i < 4000; ++i) {
     std::string text = whole;
