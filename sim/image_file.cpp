@@ -38,16 +38,17 @@ std::string first_line(const std::string& message) {
 
 struct Format {
   const char* extension;
-  bool holds_integers, holds_floats, holds_layers;
+  bool holds_bytes, holds_words, holds_floats, holds_layers;
 };
 
-constexpr std::array<Format, 7> formats{{{".png", true, false, false},
-                                         {".tif", true, true, false},
-                                         {".tiff", true, true, false},
-                                         {".pgm", true, false, false},
-                                         {".ppm", true, false, false},
-                                         {".pnm", true, false, false},
-                                         {".exr", false, true, true}}};
+constexpr std::array<Format, 7> formats{
+    {{".png", true, true, false, false},
+     {".tif", true, true, true, false},
+     {".tiff", true, true, true, false},
+     {".pgm", true, false, false, false},  // OpenImageIO 2.4 cuts 16 bits to 8
+     {".ppm", true, false, false, false},
+     {".pnm", true, false, false, false},
+     {".exr", false, false, true, true}}};
 
 const Format& format_of(const fs::path& path) {
   for (const Format& format : formats)
@@ -64,14 +65,19 @@ OIIO::TypeDesc type_of(PixelType type) {
 /// Throws where the format of `path` does not hold the picture.
 void validate(const fs::path& path, const PictureView& picture) {
   const Format& format = format_of(path);
-  const bool is_float = picture.type == PixelType::f32;
   if (picture.data == nullptr || picture.width < 1 || picture.height < 1 || picture.channels < 1)
     refuse(path, "the picture to be written is empty, expected pixels");
-  if (is_float ? !format.holds_floats : !format.holds_integers) {
-    refuse(path, fmt::format("the picture to be written holds {}, {} does not; expected {}",
-                             is_float ? "floats" : "integers", format.extension,
-                             is_float ? ".exr or .tif" : ".png, .tif or .pgm"));
-  }
+  if (picture.type == PixelType::f32 && !format.holds_floats)
+    refuse(path, fmt::format("the picture to be written holds floats, {} does not; expected .exr or .tif",
+                             format.extension));
+  if (picture.type == PixelType::u8 && !format.holds_bytes)
+    refuse(path,
+           fmt::format("the picture to be written holds integers, {} does not; expected .png, .tif or .pgm",
+                       format.extension));
+  if (picture.type == PixelType::u16 && !format.holds_words)
+    refuse(path,
+           fmt::format("the picture to be written holds 16-bit integers, {} does not; expected .png or .tif",
+                       format.extension));
   if (!format.holds_layers && picture.channels != 1 && picture.channels != 3)
     refuse(path, fmt::format("the picture to be written has {} channels, expected 1 or 3", picture.channels));
   const std::set<std::string> names(picture.channel_names.begin(), picture.channel_names.end());

@@ -27,7 +27,7 @@ struct PictureView {
 ///
 ///   .png              u8 or u16, 1 or 3 channels; fast compression (level 1)
 ///   .tif, .tiff       u8, u16 or f32, 1 or 3 channels; uncompressed
-///   .pgm, .ppm, .pnm  u8 or u16, 1 or 3 channels
+///   .pgm, .ppm, .pnm  u8, 1 or 3 channels
 ///   .exr              f32, any channels; a name such as "projector.u" is channel u of layer projector
 ///
 /// The values are written as they are: nothing is scaled or gamma-encoded. Throws InputError, naming the

@@ -157,7 +157,8 @@ std::optional<glm::dvec2> LensProjection::newton(const glm::dvec2& pixel, glm::d
     const glm::dvec2 step = glm::inverse(jacobian) * (pixel - seen);
     double fraction = 1;
     bool nearer = false;
-    for (; fraction > 1e-6 && !nearer; fraction /= 2) {
+    // Within the tolerance one more full step is tried, and no halves of it.
+    for (; fraction > (error <= tolerance_px ? 0.6 : 1e-6) && !nearer; fraction /= 2) {
       const glm::dvec2 candidate = xy + fraction * step;
       if (!(glm::length(candidate) < fold_radius_) || !evaluate(candidate, trial, trial_jacobian)) continue;
       if (!(glm::length(pixel - trial) < error)) continue;
