@@ -249,7 +249,7 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"NearBeyondFar", "throw_ratio = 1.2", "throw_ratio = 1.2\nnear = 3.0\nfar = 2.0", "near"},
         Bad{"SingularIntrinsics", "throw_ratio = 1.2\nlens_shift = [0.0, 0.1]", "fx = 0.0", "fx"},
         Bad{"NoToml", "[[mesh]]", "[[mesh", "s.toml"}),
-    [](const auto& info) { return std::string(info.param.name); });
+    [](const auto& test) { return std::string(test.param.name); });
 
 TEST(Command, DamagedCapturesAreBadInput) {
   const ScratchFolder scratch;
