@@ -92,6 +92,7 @@ OIIO::ImageSpec spec_of(const PictureView& picture, const Format& format) {
   spec.alpha_channel = spec.z_channel = -1;
   spec.attribute("png:compressionLevel", 1);
   spec.attribute("compression", format.holds_layers ? "zip" : "none");
+  spec.attribute("DateTime", "1970:01:01 00:00:00");  // not the clock's: the same picture is the same bytes
   spec.attribute("tiff:write_exif", 0);  // there is none, and OpenImageIO 2.4 takes that for an error
   return spec;
 }

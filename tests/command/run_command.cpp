@@ -15,12 +15,12 @@ std::string read_text(const std::filesystem::path& path) {
   return text.str();
 }
 
-CommandResult laterna(const std::string& words, const std::filesystem::path& folder,
-                      const std::string& input) {
+CommandResult laterna(const std::string& words, const std::filesystem::path& folder, const std::string& input,
+                      const std::string& before) {
   const std::filesystem::path scratch = folder.string() + ".std";
   std::filesystem::create_directories(scratch);
   std::ofstream(scratch / "in", std::ios::binary) << input;
-  const std::string line = "cd '" + folder.string() + "' && '" LATERNA_COMMAND "' " + words + " <'" +
+  const std::string line = before + "cd '" + folder.string() + "' && '" LATERNA_COMMAND "' " + words + " <'" +
                            (scratch / "in").string() + "' >'" + (scratch / "out").string() + "' 2>'" +
                            (scratch / "err").string() + "'";
   const int status = std::system(line.c_str());
