@@ -11,9 +11,10 @@ struct CommandResult {
   std::string out, err;
 };
 
-/// Runs `laterna WORDS` in a folder, by a shell, with `input` on standard input.
+/// Runs `laterna WORDS` in a folder, by a shell, with `input` on standard input; `before` are shell words
+/// that run first.
 CommandResult laterna(const std::string& words, const std::filesystem::path& folder,
-                      const std::string& input = "");
+                      const std::string& input = "", const std::string& before = "");
 
 /// The whole of a file.
 std::string read_text(const std::filesystem::path& path);
