@@ -117,22 +117,29 @@ void normal_deviates(const NoiseKey& key, NoiseStream stream, std::uint32_t firs
 }
 
 LATERNA_CLONES void poisson_counts(const float* means, const std::uint32_t* words, float* counts) {
+  constexpr float below_one = 1 - 0x1p-24f, negligible = 1e-30f;  // the latter keeps denormals away
+  constexpr int steps = 4;
   float mean[n], chance[n], below[n], uniform[n], last[n];
-  float longest = 0;
   for (int i = 0; i < n; ++i) {
-    const float positive = means[i] > 0 ? means[i] : 0;
-    mean[i] = positive < greatest_poisson_mean ? positive : greatest_poisson_mean;
+    mean[i] = means[i] > 0 && means[i] < greatest_poisson_mean ? means[i] : 0;
     below[i] = chance[i] = exp_minus(mean[i]);
-    uniform[i] = (float(std::int32_t(words[i] >> 1)) + 0.5f) * 0x1p-31f;
+    const float drawn = (float(std::int32_t(words[i] >> 1)) + 0.5f) * 0x1p-31f;
+    uniform[i] = drawn < below_one ? drawn : below_one;
     last[i] = last_count(mean[i]);
     counts[i] = 0;
   }
-  for (int i = 0; i < n; ++i) longest = last[i] > longest ? last[i] : longest;
-  for (int k = 1; float(k) <= longest; ++k) {
+  for (int k = 1, going_on = 1; going_on != 0; k += steps) {
+    going_on = 0;
     for (int i = 0; i < n; ++i) {
-      counts[i] += uniform[i] >= below[i] && float(k) <= last[i] ? 1.f : 0.f;
-      chance[i] *= mean[i] * reciprocals[k];
-      below[i] += chance[i];
+      float sum = below[i], term = chance[i], count = counts[i];
+      for (int j = 0; j < steps; ++j) {
+        count += uniform[i] >= sum && float(k + j) <= last[i] ? 1.f : 0.f;
+        const float next = term * (mean[i] * reciprocals[k + j]);
+        term = next > negligible ? next : negligible;
+        sum += term;
+      }
+      below[i] = sum, chance[i] = term, counts[i] = count;
+      going_on |= int(uniform[i] >= sum) & int(float(k + steps) <= last[i]);
     }
   }
 }

@@ -32,9 +32,9 @@ void random_words(const NoiseKey& key, NoiseStream stream, std::uint32_t first_p
 void normal_deviates(const NoiseKey& key, NoiseStream stream, std::uint32_t first_pixel, std::uint32_t group,
                      float* deviates);
 
-/// Poisson-distributed counts for 64 pixels, by inversion: the least n with word/2³² < P(N ≤ n). Means from
-/// 0 to 30; a negative mean counts as 0, a greater one as 30. Single precision: P(N ≤ n) within 4e-6; counts
-/// whose chance to be passed is below 1e-8 end the tail. The same bits on every instruction set.
+/// Poisson-distributed counts for 64 pixels, by inversion: the least n with word/2³² < P(N ≤ n). Means above
+/// 0 and below 30; 0 for all others. Single precision: P(N ≤ n) within 4e-6; the tail ends at μ + 6.5·√μ + 4,
+/// which is passed with a chance below 1e-8. The same bits on every instruction set.
 void poisson_counts(const float* means, const std::uint32_t* words, float* counts);
 inline constexpr float greatest_poisson_mean = 30;
 

@@ -161,7 +161,7 @@ TEST(NormalDeviates, TheSameBitsOnEveryMachine) {
     poisson_counts(means.data(), words.data(), counts.data());
     for (const float x : counts) hash = hash * 1099511628211u + std::bit_cast<std::uint32_t>(x);
   }
-  EXPECT_EQ(hash, 0xf6d2a8bf79e3d809u);
+  EXPECT_EQ(hash, 0x62042f4c4683d809u);
 }
 
 // Counts of 200,000 pixels with one mean.
@@ -212,7 +212,7 @@ TEST(PoissonCounts, NeighboursInABlockDoNotMatter) {
   for (int i = 0; i < noise_pixels; i += 2) EXPECT_EQ(counts_dim[i], counts_mixed[i]);
   EXPECT_EQ(counts_dim[0], 0);    // no light, no electron
   EXPECT_EQ(counts_mixed[1], 0);  // a negative mean is none
-  EXPECT_LT(counts_mixed[3], 75);
+  EXPECT_EQ(counts_mixed[3], 0);  // nor is one that the function does not serve
 }
 
 }  // namespace
