@@ -56,49 +56,41 @@ PixelGains pixel_gains(const ElectronModel& model, std::uint32_t first_pixel) {
   return gains;
 }
 
-/// Of the means of a block.
-struct MeanRange {
-  float least, greatest;
+/// Which kinds of pixels a block has beside those of medium light.
+struct Kinds {
+  bool dim, bright;
 };
 
-LATERNA_CLONES MeanRange mean_electrons(const ElectronModel& model, const PixelGains& gains,
-                                        const float* levels, float* means) {
-  float least[16], greatest[16];
-  for (int i = 0; i < 16; ++i) least[i] = model.full_well_e, greatest[i] = 0;
-  for (int i = 0; i < block; i += 16) {
-    for (int j = 0; j < 16; ++j) {
-      const float level = levels[i + j] > 0 ? levels[i + j] : 0;
-      const float mean = gains.response[i + j] * level + model.dark_e;
-      means[i + j] = mean;
-      least[j] = mean < least[j] ? mean : least[j];
-      greatest[j] = mean > greatest[j] ? mean : greatest[j];
-    }
-  }
-  return {*std::min_element(least, least + 16), *std::max_element(greatest, greatest + 16)};
+/// Whether shot noise may reach the full well.
+inline bool near_full_well(float mean, float deviation, float full_well_e) {
+  return mean + 8 * deviation > full_well_e;
 }
 
-/// Whether the full well is beyond reach of the shot noise.
-inline bool below_full_well(float mean, float full_well_e) {
-  return mean + 8 * std::sqrt(mean) <= full_well_e;
-}
-
-/// DN before rounding where shot and dark noise are one normal deviate.
-LATERNA_CLONES void expose_midrange(const ElectronModel& model, const PixelGains& gains, const float* means,
-                                    const float* deviates, float* signal) {
+/// Means, and DN before rounding where shot and dark noise are one normal deviate.
+LATERNA_CLONES Kinds expose_medium(const ElectronModel& model, const PixelGains& gains, const float* levels,
+                                   const float* deviates, float* means, float* signal) {
   const float dark_variance = model.dark_noise_e * model.dark_noise_e;
+  const float dark_e = model.dark_e, gain = model.gain_dn_per_e, full_well_e = model.full_well_e;
+  int dim = 0, bright = 0;
   for (int i = 0; i < block; ++i) {
-    const float electrons = means[i] + std::sqrt(means[i] + dark_variance) * deviates[i];
-    signal[i] = model.gain_dn_per_e * electrons + gains.offset_dn[i];
+    const float level = levels[i] > 0 ? levels[i] : 0;
+    const float mean = gains.response[i] * level + dark_e, deviation = std::sqrt(mean + dark_variance);
+    means[i] = mean;
+    signal[i] = gain * (mean + deviation * deviates[i]) + gains.offset_dn[i];
+    dim |= int(mean < greatest_poisson_mean);
+    bright |= int(near_full_well(mean, deviation, full_well_e));
   }
+  return {dim != 0, bright != 0};
 }
 
 /// Replaces those whose charge is a Poisson-distributed count.
 LATERNA_CLONES void expose_dim(const ElectronModel& model, const PixelGains& gains, const float* means,
                                const float* counts, const float* deviates, float* signal) {
+  const float full_well_e = model.full_well_e, dark_noise_e = model.dark_noise_e, gain = model.gain_dn_per_e;
   for (int i = 0; i < block; ++i) {
-    const float charge = counts[i] < model.full_well_e ? counts[i] : model.full_well_e;
-    const float electrons = charge + model.dark_noise_e * deviates[i];
-    const float dim = model.gain_dn_per_e * electrons + gains.offset_dn[i];
+    const float charge = counts[i] < full_well_e ? counts[i] : full_well_e;
+    const float electrons = charge + dark_noise_e * deviates[i];
+    const float dim = gain * electrons + gains.offset_dn[i];
     signal[i] = means[i] < greatest_poisson_mean ? dim : signal[i];
   }
 }
@@ -106,14 +98,18 @@ LATERNA_CLONES void expose_dim(const ElectronModel& model, const PixelGains& gai
 /// Replaces those whose charge may reach the full well.
 LATERNA_CLONES void expose_bright(const ElectronModel& model, const PixelGains& gains, const float* means,
                                   const float* shot, const float* deviates, float* signal) {
+  const float full_well_e = model.full_well_e, dark_noise_e = model.dark_noise_e, gain = model.gain_dn_per_e;
+  const float dark_variance = dark_noise_e * dark_noise_e;
   for (int i = 0; i < block; ++i) {
     const float drawn = means[i] + std::sqrt(means[i]) * shot[i];
     const float positive = drawn > 0 ? drawn : 0;
-    const float charge = positive < model.full_well_e ? positive : model.full_well_e;
-    const float electrons = charge + model.dark_noise_e * deviates[i];
-    const float bright = model.gain_dn_per_e * electrons + gains.offset_dn[i];
-    const bool count = means[i] < greatest_poisson_mean;
-    signal[i] = count || below_full_well(means[i], model.full_well_e) ? signal[i] : bright;
+    const float charge = positive < full_well_e ? positive : full_well_e;
+    const float electrons = charge + dark_noise_e * deviates[i];
+    const float bright = gain * electrons + gains.offset_dn[i];
+    const float deviation = std::sqrt(means[i] + dark_variance);
+    const int near =
+        int(near_full_well(means[i], deviation, full_well_e)) & int(means[i] >= greatest_poisson_mean);
+    signal[i] = near != 0 ? bright : signal[i];
   }
 }
 
@@ -121,15 +117,13 @@ void expose_electrons(const Exposure& exposure, const PixelGains& gains, Draws& 
                       const float* levels, float* signal) {
   const ElectronModel& model = *exposure.electrons;
   float means[block], counts[block];
-  const MeanRange range = mean_electrons(model, gains, levels, means);
   const float* deviates = draws.temporal + block * picture;
-  expose_midrange(model, gains, means, deviates, signal);
-  if (range.least < greatest_poisson_mean) {
+  const Kinds kinds = expose_medium(model, gains, levels, deviates, means, signal);
+  if (kinds.dim) {
     poisson_counts(means, draws.count_words(picture), counts);
     expose_dim(model, gains, means, counts, deviates, signal);
   }
-  if (!below_full_well(range.greatest, model.full_well_e))
-    expose_bright(model, gains, means, draws.shot_deviates(picture), deviates, signal);
+  if (kinds.bright) expose_bright(model, gains, means, draws.shot_deviates(picture), deviates, signal);
   if (model.response_exponent == 1) return;
   const auto full_scale = static_cast<float>(exposure.full_scale());
   for (int i = 0; i < block; ++i) {

@@ -78,8 +78,9 @@ inline float exp_minus(float x) {
   return e * std::bit_cast<float>((127 - k) << 23);
 }
 
-/// Where the tail of a Poisson distribution is cut.
-inline float last_count(float mean) { return mean + 6.5f * std::sqrt(mean) + 4; }
+/// Where the tail of a Poisson distribution is cut: at least 6.5 deviations and 4 counts above the mean, for
+/// 2·√(10.56·μ) ≤ 10.56 + μ.
+inline float last_count(float mean) { return 2 * mean + 14.6f; }
 
 constexpr std::array<float, 80> reciprocals = [] {
   std::array<float, 80> values{};
@@ -120,6 +121,7 @@ LATERNA_CLONES void poisson_counts(const float* means, const std::uint32_t* word
   constexpr float below_one = 1 - 0x1p-24f, negligible = 1e-30f;  // the latter keeps denormals away
   constexpr int steps = 4;
   float mean[n], chance[n], below[n], uniform[n], last[n];
+  int going_on = 0;
   for (int i = 0; i < n; ++i) {
     mean[i] = means[i] > 0 && means[i] < greatest_poisson_mean ? means[i] : 0;
     below[i] = chance[i] = exp_minus(mean[i]);
@@ -127,8 +129,9 @@ LATERNA_CLONES void poisson_counts(const float* means, const std::uint32_t* word
     uniform[i] = drawn < below_one ? drawn : below_one;
     last[i] = last_count(mean[i]);
     counts[i] = 0;
+    going_on |= int(uniform[i] >= below[i]);
   }
-  for (int k = 1, going_on = 1; going_on != 0; k += steps) {
+  for (int k = 1; going_on != 0; k += steps) {
     going_on = 0;
     for (int i = 0; i < n; ++i) {
       float sum = below[i], term = chance[i], count = counts[i];
