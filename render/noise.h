@@ -11,9 +11,31 @@ struct NoiseKey {
   std::uint32_t camera = 0, projector = 0;  ///< indices into the scene
 };
 
-/// Four independent standard normal deviates for pictures 4·group to 4·group + 3 at one pixel: Philox4x32-10
-/// (Salmon et al., "Parallel Random Numbers: As Easy as 1, 2, 3", SC 2011), counter (pixel, group, camera,
-/// projector) under the key `seed`, then Box and Muller's transform.
-void normal_deviates(const NoiseKey& key, std::uint32_t pixel, std::uint32_t group, float deviates[4]);
+/// Draws of different streams are independent.
+enum class NoiseStream : std::uint32_t { temporal, shot, non_uniformity };
+
+/// Noise is drawn for this many pixels and for four pictures at a time: value i + 64·j belongs to pixel
+/// first_pixel + i and picture 4·group + j, for any first_pixel.
+inline constexpr int noise_pixels = 64, noise_pictures = 4, noise_values = noise_pixels * noise_pictures;
+
+/// Uniform 32-bit words: Threefry4x32 with 16 rounds (Salmon et al., "Parallel Random Numbers: As Easy as 1,
+/// 2, 3", SC 2011; its authors found no flaw from 12 rounds on), which unlike their Philox needs no 64-bit
+/// products and so vectorises everywhere. Counter (pixel, group, stream, 0) under the key (seed, camera,
+/// projector); word j is picture 4·group + j.
+void random_words(const NoiseKey& key, NoiseStream stream, std::uint32_t first_pixel, std::uint32_t group,
+                  std::uint32_t* words);
+
+/// Independent standard normal deviates by Box and Muller's transform of random_words(): pictures 0 and 1
+/// share two words, 2 and 3 the others. Single precision: within 1e-6 of the transform (relative to the
+/// radius); |deviate| ≤ 6.67, beyond which 3e-11 of a normal distribution lie. The same bits on every
+/// instruction set.
+void normal_deviates(const NoiseKey& key, NoiseStream stream, std::uint32_t first_pixel, std::uint32_t group,
+                     float* deviates);
+
+/// Poisson-distributed counts for 64 pixels, by inversion: the least n with word/2³² < P(N ≤ n). Means above
+/// 0 and below 30; 0 for all others. Single precision: P(N ≤ n) within 4e-6; the tail ends at μ + 6.5·√μ + 4,
+/// which is passed with a chance below 1e-8. The same bits on every instruction set.
+void poisson_counts(const float* means, const std::uint32_t* words, float* counts);
+inline constexpr float greatest_poisson_mean = 30;
 
 }  // namespace laterna

@@ -11,14 +11,14 @@ namespace laterna {
 
 namespace {
 
-constexpr int block = 64;  // pixels of a row that are played together: one cache line of each 8-bit picture
+// Pixels of a row that are played together: 64, one cache line of each 8-bit picture.
+constexpr int block = noise_pixels;
 
-// DN before noise and rounding is dark + gain·value, value in 0..255.
+// A pixel's level (Exposure) is dark + gain·value, value in 0..255.
 struct Block {
   float dark[block], gain[block];
   int pixels;
-  std::size_t first;         // index of the first pixel
-  std::vector<float> noise;  // count × block; empty without noise
+  std::size_t first;  // index of the first pixel
 };
 
 struct Play {
@@ -29,8 +29,8 @@ struct Play {
   const Exposure& exposure;
 };
 
-void expose(Block& b, const Play& play) {
-  const double scale = play.exposure.full_scale() / play.exposure.saturation_cd_per_m2;
+void find_levels(Block& b, const Play& play) {
+  const double scale = play.exposure.level_per_cd_per_m2();
   for (int i = 0; i < b.pixels; ++i) {
     const std::size_t p = b.first + i;
     const double albedo = play.surface.albedo.values[p];
@@ -69,36 +69,17 @@ void fetch_bilinear(const Block& b, const Play& play, float* values) {
   }
 }
 
-void draw_noise(Block& b, const Play& play) {
-  const auto sigma = static_cast<float>(play.exposure.noise_sigma_dn);
-  const int groups = (play.patterns.count + 3) / 4;
-  b.noise.resize(std::size_t(groups) * 4 * block);
-  for (int i = 0; i < b.pixels; ++i) {
-    for (int group = 0; group < groups; ++group) {
-      float deviates[4];
-      normal_deviates(play.exposure.noise, std::uint32_t(b.first + i), group, deviates);
-      for (int j = 0; j < 4; ++j) b.noise[(group * 4 + j) * block + i] = sigma * deviates[j];
-    }
-  }
-}
-
 template <class Value, class Number>
-void quantise(const Block& b, const Play& play, const Value* values, ImageStack<Number>& out) {
-  const auto full_scale = static_cast<float>(play.exposure.full_scale());
-  for (int k = 0; k < play.patterns.count; ++k) {
-    const Value* value = values + k * block;
-    const float* noise = b.noise.empty() ? nullptr : b.noise.data() + k * block;
-    Number row[block];
-    float level[block];
-    for (int i = 0; i < block; ++i) level[i] = b.dark[i] + b.gain[i] * float(value[i]);
-    for (int i = 0; noise && i < block; ++i) level[i] += noise[i];
-    for (int i = 0; i < block; ++i) {
-      const float above = level[i] > 0 ? level[i] : 0;
-      const float half_up = (above < full_scale ? above : full_scale) + 0.5f;
-      row[i] = Number(int(half_up));
-    }
-    std::copy_n(row, b.pixels, out.picture(k).data() + b.first);
+void expose_values(const Block& b, const Play& play, const Value* values, std::vector<float>& levels,
+                   std::vector<Number>& dn, ImageStack<Number>& out) {
+  const int count = play.patterns.count;
+  for (int k = 0; k < count; ++k) {
+    for (int i = 0; i < block; ++i)
+      levels[k * block + i] = b.dark[i] + b.gain[i] * float(values[k * block + i]);
   }
+  expose(play.exposure, std::uint32_t(b.first), count, levels.data(), dn.data());
+  for (int k = 0; k < count; ++k)
+    std::copy_n(dn.data() + k * block, b.pixels, out.picture(k).data() + b.first);
 }
 
 template <class Value, class Number, class Fetch>
@@ -106,14 +87,16 @@ ImageStack<Number> play_stack(const Play& play, const Fetch& fetch) {
   ImageStack<Number> out(play.surface.width, play.surface.height, play.patterns.count);
   parallel_for(out.height, [&](std::size_t y) {
     Block b{};
-    std::vector<Value> values(std::size_t(play.patterns.count) * block);
+    const std::size_t held = std::size_t(play.patterns.count) * block;
+    std::vector<Value> values(held);
+    std::vector<float> levels(held);
+    std::vector<Number> dn(held);
     for (int x = 0; x < out.width; x += block) {
       b.first = y * out.width + x;
       b.pixels = std::min(block, out.width - x);
-      expose(b, play);
+      find_levels(b, play);
       fetch(b, play, values.data());
-      if (play.exposure.noise_sigma_dn > 0) draw_noise(b, play);
-      quantise(b, play, values.data(), out);
+      expose_values(b, play, values.data(), levels, dn, out);
     }
   });
   return out;

@@ -18,15 +18,17 @@ namespace {
 using Json = nlohmann::json;
 
 Json json_of(const CaptureSequence& s) {
-  return {{"camera", s.camera},
-          {"projector", s.projector},
-          {"camera_size", {s.camera_size.x, s.camera_size.y}},
-          {"projector_size", {s.projector_size.x, s.projector_size.y}},
-          {"patterns", s.patterns},
-          {"bit_depth", s.bit_depth},
-          {"saturation_cd_per_m2", s.saturation_cd_per_m2},
-          {"pictures", s.pictures},
-          {"truth", s.truth}};
+  Json json{{"camera", s.camera},
+            {"projector", s.projector},
+            {"camera_size", {s.camera_size.x, s.camera_size.y}},
+            {"projector_size", {s.projector_size.x, s.projector_size.y}},
+            {"patterns", s.patterns},
+            {"bit_depth", s.bit_depth},
+            {"saturation_cd_per_m2", s.saturation_cd_per_m2},
+            {"pictures", s.pictures},
+            {"truth", s.truth}};
+  if (s.exposure_time_s > 0) json["exposure_time_s"] = s.exposure_time_s;
+  return json;
 }
 
 glm::ivec2 size_of(const Json& json) {
@@ -43,6 +45,7 @@ CaptureSequence sequence_of(const Json& json) {
   s.patterns = json.at("patterns");
   s.bit_depth = json.value("bit_depth", 8);
   s.saturation_cd_per_m2 = json.value("saturation_cd_per_m2", 0.0);
+  s.exposure_time_s = json.value("exposure_time_s", 0.0);
   s.pictures = json.at("pictures").get<std::vector<std::string>>();
   s.truth = json.value("truth", "");
   return s;

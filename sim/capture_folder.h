@@ -25,6 +25,7 @@ struct CaptureSequence {
   std::string patterns = "gray";
   int bit_depth = 8;
   double saturation_cd_per_m2 = 0;    ///< the luminance that fills the scale; 0: not known
+  double exposure_time_s = 0;         ///< of an EMVA 1288 sensor; 0: not known, and then not written
   std::vector<std::string> pictures;  ///< in the order of the patterns
   std::string truth;                  ///< multi-layer EXR; empty: not known
 };

@@ -4,6 +4,7 @@
 #include "sim/device.h"
 #include "sim/image.h"
 #include "sim/mesh.h"
+#include "sim/sensor.h"
 
 #include <glm/glm.hpp>
 
@@ -36,16 +37,6 @@ struct Projector {
       1000;  ///< of the all-white picture, shared evenly by the panel's pixels: Φ = flux_lm / (W·H)
   Lookup lookup = Lookup::nearest;
   Border border = Border::black;
-};
-
-/// The ideal sensor: DN = round(full_scale·L/saturation + noise), clamped to [0, full_scale], full_scale =
-/// 2^bit_depth - 1.
-struct Sensor {
-  int bit_depth = 8;          ///< 8, or 9 to 16 in 16-bit files
-  double noise_sigma_dn = 0;  ///< Gaussian, before rounding
-  std::optional<double>
-      saturation_cd_per_m2;  ///< the luminance L that fills the scale; absent: automatic exposure
-  bool operator==(const Sensor&) const = default;
 };
 
 /// A camera: a device that measures.

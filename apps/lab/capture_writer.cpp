@@ -44,6 +44,8 @@ CaptureSequence describe(const Scene& scene, const View& view, const std::string
   s.projector_size = projector.intrinsics.size;
   s.bit_depth = camera.sensor.bit_depth;
   s.saturation_cd_per_m2 = view.saturation_cd_per_m2;
+  if (camera.sensor.kind == SensorKind::emva1288)
+    s.exposure_time_s = exposure_time_s(camera.sensor, view.saturation_cd_per_m2);
   for (int k = 0; k < pictures; ++k)
     s.pictures.push_back(fmt::format("{}/{}/{:02}.{}", s.camera, s.projector, k, format));
   if (truth) s.truth = fmt::format("truth/{}_{}.exr", s.camera, s.projector);

@@ -48,10 +48,10 @@ Traced trace(const Scene& scene, StageTimes& times, const Progress& progress) {
           times.measure("light",
                         [&] { return trace_light(rays, scene, traced.surfaces[c], scene.projectors[p]); }),
           0};
+      const std::optional<double> fixed = fixed_saturation_cd_per_m2(camera.sensor);
       view.saturation_cd_per_m2 =
-          camera.sensor.saturation_cd_per_m2
-              ? *camera.sensor.saturation_cd_per_m2
-              : automatic_saturation_cd_per_m2(traced.surfaces[c], {&view.light, 1}, scene.ambient_lx);
+          fixed ? *fixed
+                : automatic_saturation_cd_per_m2(traced.surfaces[c], {&view.light, 1}, scene.ambient_lx);
       traced.views.push_back(std::move(view));
     }
   }

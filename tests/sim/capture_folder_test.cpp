@@ -13,7 +13,7 @@ using ::testing::HasSubstr;
 CaptureManifest small_manifest() {
   CaptureSequence s;
   s.camera = "cam", s.projector = "left", s.camera_size = {4, 3}, s.projector_size = {8, 2}, s.bit_depth = 12;
-  s.saturation_cd_per_m2 = 0.1, s.pictures = {"cam/left/00.png", "cam/left/01.png"},
+  s.saturation_cd_per_m2 = 0.1, s.exposure_time_s = 0.25, s.pictures = {"cam/left/00.png", "cam/left/01.png"},
   s.truth = "truth/cam_left.exr";
   return {"scene.toml", 18446744073709551615ull, "matrices.json", {s}};
 }
@@ -26,6 +26,7 @@ TEST(CaptureFolder, ManifestRoundTrip) {
   EXPECT_EQ(after.seed, before.seed);
   EXPECT_EQ(after.sequences[0].projector_size, glm::ivec2(8, 2));
   EXPECT_EQ(after.sequences[0].saturation_cd_per_m2, 0.1);
+  EXPECT_EQ(after.sequences[0].exposure_time_s, 0.25);
   EXPECT_THAT(after.sequences[0].pictures, ElementsAre("cam/left/00.png", "cam/left/01.png"));
 }
 
