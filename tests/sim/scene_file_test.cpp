@@ -516,7 +516,8 @@ TEST(SceneFile, AlbedoMapsNeedTextureCoordinates) {
 }
 
 TEST(SceneFile, BuildChecksASpecificationMadeInCode) {
-  SceneSpec spec{.meshes = {MeshSpec{.shape = "plane"}}};
+  SceneSpec spec;
+  spec.meshes.push_back({.shape = "plane"});
   spec.cameras.push_back({.device = {.size = glm::ivec2(10, 10),
                                      .fx = std::nan(""),
                                      .position = glm::dvec3(1),
