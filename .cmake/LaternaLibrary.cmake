@@ -1,13 +1,21 @@
-# laterna_library(<folder> [LINKS <folder>...] [PUBLIC <target>...] [PRIVATE <target>...])
+# laterna_library(<folder> [FOLDERS <sub-folder>...] [LINKS <folder>...] [PUBLIC <target>...] [PRIVATE <target>...])
 #
-# One folder, one library. LINKS names the Laterna folders that this one may use. Configuring fails where a link names
+# One folder, one library, with the sub-folders it names. LINKS names the Laterna folders that this one may use. Configuring fails where a link names
 # a folder that was not added before (so there can be no cycle), and where a source includes a header of a folder that
 # it does not link (so `render` and `calib` stay strangers).
 function(laterna_library folder)
-  cmake_parse_arguments(arg "" "" "LINKS;PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(arg "" "" "FOLDERS;LINKS;PUBLIC;PRIVATE" ${ARGN})
   string(REGEX REPLACE ".*/" "" name "${folder}")
   file(GLOB sources CONFIGURE_DEPENDS *.cpp)
   file(GLOB headers CONFIGURE_DEPENDS *.h)
+  install(FILES ${headers} DESTINATION include/laterna/${folder})
+  foreach(sub IN LISTS arg_FOLDERS)
+    file(GLOB sub_sources CONFIGURE_DEPENDS ${sub}/*.cpp)
+    file(GLOB sub_headers CONFIGURE_DEPENDS ${sub}/*.h)
+    install(FILES ${sub_headers} DESTINATION include/laterna/${folder}/${sub})
+    list(APPEND sources ${sub_sources})
+    list(APPEND headers ${sub_headers})
+  endforeach()
   foreach(link IN LISTS arg_LINKS)
     if(NOT TARGET laterna_${link})
       message(FATAL_ERROR "${folder} links ${link}, which is not defined before it: a cycle, or a wrong order")
@@ -23,7 +31,6 @@ function(laterna_library folder)
   list(TRANSFORM arg_LINKS PREPEND laterna_)
   target_link_libraries(laterna_${name} PUBLIC laterna_options ${arg_LINKS} ${arg_PUBLIC} PRIVATE ${arg_PRIVATE})
   install(TARGETS laterna_${name} EXPORT laterna)
-  install(FILES ${headers} DESTINATION include/laterna/${folder})
 endfunction()
 
 # Refuses an include of another Laterna folder that is not among the allowed ones.

@@ -21,21 +21,40 @@ struct ObjectLight {
 };
 
 struct Light {
+  const Effects& effects;
   glm::dvec3 center_relative;
   double flux_per_pixel_lm;
+  double facing_at_1_m_lx;
   std::vector<ObjectLight> objects;
 };
 
-Light make_light(const RayScene& rays, const Scene& scene, const Projector& projector) {
+// The projector without what is switched off.
+Projector switched(Projector projector, const Effects& effects) {
+  if (!effects.border) projector.border = Border::clamp;
+  if (!effects.light_planes) projector.device.planes = {};
+  return projector;
+}
+
+Light make_light(const RayScene& rays, const Scene& scene, const Projector& given) {
+  const Projector projector = switched(given, scene.effects);
   const glm::dvec3 center = center_in_world(projector.device.device_from_world);
   const glm::ivec2 size = projector.device.intrinsics.size;
-  Light light{center - rays.center_world(), projector.flux_lm / (double(size.x) * size.y), {}};
+  const double flux = projector.flux_lm / (double(size.x) * size.y);
+  const Intrinsics& k = projector.device.intrinsics;
+  Light light{scene.effects, center - rays.center_world(), flux, flux * k.fx * k.fy, {}};
   for (const Object& object : scene.objects) {
     const glm::dmat4& m = object.world_from_object;
     light.objects.push_back(
         {ProjectiveLookup(projector, m), glm::dmat3(m), glm::dvec3(m[3]) - rays.center_world()});
   }
   return light;
+}
+
+void aim_at_light(RayPacket& packet, int lane, const glm::dvec3& start, const glm::dvec3& towards) {
+  packet.origin_x[lane] = static_cast<float>(start.x), packet.direction_x[lane] = float(towards.x);
+  packet.origin_y[lane] = static_cast<float>(start.y), packet.direction_y[lane] = float(towards.y);
+  packet.origin_z[lane] = static_cast<float>(start.z), packet.direction_z[lane] = float(towards.z);
+  packet.valid[lane] = -1;
 }
 
 // Everything but the shadow; fills the shadow ray's lane where the point is still lit.
@@ -59,18 +78,19 @@ void light_pixel(LightMap& map, std::size_t p, RayPacket& packet, int lane, cons
   const TrianglePlane& plane = rays.plane(object, surface.triangle.values[p]);
   const glm::dvec3 point = view.world_from_object_linear * point_object + view.object_relative;
   const double height = glm::dot(plane.normal_world, light.center_relative - point);
-  if (!(height > 0) || !surface.seen_front.values[p]) {
+  const bool two_sided = !light.effects.back_face && height < 0;
+  if (light.effects.back_face && (!(height > 0) || !surface.seen_front.values[p])) {
     map.why.values[p] = std::uint8_t(Unlit::back_face);
     return;
   }
   const double z = hit.depth_m;
-  map.white_lx.values[p] = light.flux_per_pixel_lm * hit.pixels_per_unit_area * height / (z * z * z);
-  const glm::dvec3 start = point + plane.margin_m * plane.normal_world;
-  const glm::dvec3 towards = light.center_relative - start;
-  packet.origin_x[lane] = static_cast<float>(start.x), packet.direction_x[lane] = float(towards.x);
-  packet.origin_y[lane] = static_cast<float>(start.y), packet.direction_y[lane] = float(towards.y);
-  packet.origin_z[lane] = static_cast<float>(start.z), packet.direction_z[lane] = float(towards.z);
-  packet.valid[lane] = -1;
+  const double above = two_sided ? -height : height;
+  map.white_lx.values[p] = light.effects.irradiance
+                               ? light.flux_per_pixel_lm * hit.pixels_per_unit_area * above / (z * z * z)
+                               : light.facing_at_1_m_lx;
+  if (!light.effects.shadow) return;
+  const glm::dvec3 start = point + (two_sided ? -plane.margin_m : plane.margin_m) * plane.normal_world;
+  aim_at_light(packet, lane, start, light.center_relative - start);
 }
 
 }  // namespace

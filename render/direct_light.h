@@ -24,6 +24,10 @@ struct LightMap {
 /// h/d, with distance d and h the projector's height above the triangle's plane, this is Φ·J·h/z³. A point is
 /// dark as ProjectiveLookup says; where the projector, or the camera, is behind the surface; and where a
 /// shadow ray meets anything (RayScene's margins): also before the near plane.
+///
+/// Switches of Scene::effects, each the stage `rows` but the last: shadow off: no shadow ray. back_face off:
+/// both sides are lit, E with |h|. border off: as Border::clamp. light_planes off: no near and far.
+/// irradiance off (weight): E = Φ·fx·fy/(1 m)² at each lit point, what a facing plane at 1 m gets.
 LightMap trace_light(const RayScene& rays, const Scene& scene, const SurfaceMap& surface,
                      const Projector& projector);
 

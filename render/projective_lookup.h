@@ -27,6 +27,7 @@ enum class Unlit : std::uint8_t {
   back_face,    ///< the projector, or the camera, is not on the surface's front side
   shadow,       ///< something stands between
   no_surface,   ///< the camera's pixel sees nothing
+  cutoff,       ///< beyond the cone of the spotlight; after all others
 };
 
 /// Where a point falls.

@@ -17,7 +17,7 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 struct ObjectView {
   glm::dmat3 object_from_device;
   glm::dvec3 camera_from_center, camera_object;
-  float albedo;
+  float albedo, back_albedo;
   const Object* textured;  // null without an albedo map
 };
 
@@ -39,6 +39,7 @@ View make_view(const RayScene& rays, const Scene& scene, const Device& camera) {
     const bool textured = object.albedo_map && !object.mesh.texture_coordinates.empty();
     view.objects.push_back({planes.object_from_world_linear * view.world_from_device,
                             camera_object - planes.center_object, camera_object, float(object.albedo),
+                            scene.effects.back_face ? 0 : float(object.albedo),
                             textured ? &object : nullptr});
   }
   return view;
@@ -85,7 +86,7 @@ void write_hit(SurfaceMap& map, std::size_t p, const ObjectView& object, const T
   map.depth_m.values[p] = depth;
   map.point_object.values[p] = object.camera_object + depth * ray_object;
   map.seen_front.values[p] = slope < 0;
-  map.albedo.values[p] = slope < 0 ? object.albedo : 0;
+  map.albedo.values[p] = slope < 0 ? object.albedo : object.back_albedo;
 }
 
 void apply_albedo_map(SurfaceMap& map, std::size_t p, const Object& object, std::uint32_t triangle) {

@@ -18,7 +18,8 @@ struct SurfaceMap {
   PixelArray<std::uint32_t> triangle;   ///< index into that object's triangles, or no_hit
   PixelArray<glm::dvec3> point_object;  ///< metres, in the object's frame
   PixelArray<double> depth_m;           ///< along the camera's optical axis
-  PixelArray<float> albedo;             ///< with the albedo map; 0 where the back side is seen
+  PixelArray<float>
+      albedo;  ///< with the albedo map; 0 where the back side is seen (but with Effects::back_face off)
   PixelArray<std::uint8_t> seen_front;  ///< 1 where the camera sees the front side, else 0
 
   bool hit(std::size_t i) const { return object.values[i] != no_hit; }

@@ -9,6 +9,7 @@
 
 #include <glm/glm.hpp>
 
+#include <array>
 #include <bit>
 #include <cstdint>
 #include <string>
@@ -62,12 +63,24 @@ bool gray_bit(const GraySequence& sequence, int k, int x, int y);
 /// Picture k: 0 or 255 per projector pixel.
 Image<std::uint8_t> pattern_picture(const GraySequence& sequence, int k);
 
+/// v/255 for v from 0 to 255.
+constexpr std::array<float, 256> linear_light() {
+  std::array<float, 256> light{};
+  for (int v = 0; v < 256; ++v) light[v] = float(v) / 255;
+  return light;
+}
+
 /// All pictures of a sequence with the values of one texel side by side, so that one fetch serves every
-/// picture: picture k at (x, y) is values[(y·width + x)·count + k].
+/// picture: picture k at (x, y) is values[(y·width + x)·count + k]. Its light, as a share of the
+/// all-white picture's, is light_of_value[that] + added_light[k].
 struct PatternStack {
   int width = 0, height = 0, count = 0;
   std::vector<std::uint8_t> values;
+  std::array<float, 256> light_of_value = linear_light();
+  std::vector<float> added_light{};  ///< one per picture, or empty: none
 
+  /// Whether light is value/255, as it is unless a pattern effect is on.
+  bool is_linear() const { return added_light.empty() && light_of_value == linear_light(); }
   const std::uint8_t* texel(int x, int y) const {
     return values.data() + (std::size_t(y) * width + x) * count;
   }

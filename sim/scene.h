@@ -2,12 +2,16 @@
 #pragma once
 
 #include "sim/device.h"
+#include "sim/effect_parameters.h"
+#include "sim/effects.h"
 #include "sim/image.h"
+#include "sim/lookup.h"
 #include "sim/mesh.h"
 #include "sim/sensor.h"
 
 #include <glm/glm.hpp>
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -25,10 +29,11 @@ struct Object {
   /// Multiplies `albedo`, linear, one channel; looked up with the mesh's texture coordinates (s right, t up,
   /// repeated), bilinearly. Empty: constant albedo.
   std::shared_ptr<const Image<float>> albedo_map;
+  MeshEffects effects{};
+  std::uint64_t seed = 1;  ///< draws the solid noise
+  /// Tangent-space normals, each channel 0 to 1: n = 2·rgb - 1. Empty where effects.normal_map is.
+  std::shared_ptr<const Image<glm::vec3>> normal_map{};
 };
-
-enum class Lookup { nearest, bilinear };  ///< nearest: a panel pixel is a box
-enum class Border { black, clamp };       ///< beyond the picture's edge: no light, or the edge texel's
 
 /// A projector: a device that emits.
 struct Projector {
@@ -37,15 +42,25 @@ struct Projector {
       1000;  ///< of the all-white picture, shared evenly by the panel's pixels: Φ = flux_lm / (W·H)
   Lookup lookup = Lookup::nearest;
   Border border = Border::black;
+  ProjectorEffects effects{};
+  std::shared_ptr<const Image<float>> vignetting_map{};  ///< of effects.vignetting; empty where it has none
 };
 
 /// A camera: a device that measures.
 struct Camera {
   Device device;
   Sensor sensor;
+  Vignetting vignetting{};
+  std::shared_ptr<const Image<float>> vignetting_map{};  ///< empty where `vignetting` has none
 };
 
-enum class PatternKind { gray };
+enum class PatternKind { gray, slide };  ///< slide: one picture from a file
+
+/// The picture that a slide projector shows.
+struct Slide {
+  Image<float> light;     ///< linear, 0 to 1
+  bool is_linear = true;  ///< whether 8-bit values for it are linear too; else they follow the sRGB curve
+};
 
 /// The whole scene.
 struct Scene {
@@ -54,6 +69,8 @@ struct Scene {
   std::vector<Camera> cameras;
   double ambient_lx = 0;  ///< uniform illuminance on every surface, from everywhere
   PatternKind patterns = PatternKind::gray;
+  Effects effects{};
+  std::shared_ptr<const Slide> slide{};  ///< where effects.slide is on
 };
 
 }  // namespace laterna

@@ -1,6 +1,7 @@
 #include "sim/scene_build.h"
 
 #include "sim/device_spec.h"
+#include "sim/effect_checks.h"
 #include "sim/error.h"
 #include "sim/image_file.h"
 #include "sim/mesh_file.h"
@@ -83,13 +84,38 @@ void expect_near(const Mesh& mesh, const glm::dmat4& world_from_object) {
 /// Albedo maps by file and encoding, so that meshes share them.
 using Maps = std::map<std::pair<std::filesystem::path, Encoding>, std::shared_ptr<const Image<float>>>;
 
-std::shared_ptr<const Image<float>> read_albedo_map(const std::filesystem::path& path, Encoding encoding) {
-  auto map = std::make_shared<const Image<float>>(read_grey_float(path, encoding));
-  for (const float value : map->values) {
+Image<float> read_fractions(const std::filesystem::path& path, Encoding encoding) {
+  Image<float> map = read_grey_float(path, encoding);
+  for (const float value : map.values) {
     if (!(value >= 0 && value <= 1))
       throw InputError(fmt::format("{}: a pixel is {}, expected 0 to 1", path.string(), value));
   }
   return map;
+}
+
+std::shared_ptr<const Image<float>> vignetting_map(const Vignetting& vignetting,
+                                                   const std::filesystem::path& folder) {
+  if (vignetting.model != VignettingModel::map) return {};
+  return std::make_shared<const Image<float>>(read_fractions(folder / vignetting.map, Encoding::linear));
+}
+
+std::shared_ptr<const Image<glm::vec3>> read_normal_map(const std::filesystem::path& path) {
+  auto map = std::make_shared<const Image<glm::vec3>>(read_rgb_float(path, Encoding::linear));
+  for (const glm::vec3& value : map->values) {
+    // A normal along or below the surface is none.
+    if (value.x >= 0 && value.x <= 1 && value.y >= 0 && value.y <= 1 && value.z > 0.5f && value.z <= 1)
+      continue;
+    throw InputError(fmt::format("{}: a pixel is ({}, {}, {}), expected 0 to 1 and blue above 0.5",
+                                 path.string(), value.x, value.y, value.z));
+  }
+  return map;
+}
+
+void add_normal_map(Object& object, const std::filesystem::path& folder) {
+  if (object.effects.normal_map.empty()) return;
+  if (object.mesh.texture_coordinates.empty())
+    throw InputError("normal_map is given, but the mesh has no texture coordinates");
+  object.normal_map = read_normal_map(folder / object.effects.normal_map);
 }
 
 Object build_object(const MeshSpec& spec, const std::filesystem::path& folder, Maps& maps) {
@@ -97,7 +123,10 @@ Object build_object(const MeshSpec& spec, const std::filesystem::path& folder, M
                 .mesh = {},
                 .world_from_object = world_from_file(spec),
                 .albedo = spec.albedo,
-                .albedo_map = {}};
+                .albedo_map = {},
+                .effects = spec.effects,
+                .seed = spec.seed,
+                .normal_map = {}};
   if (spec.file.empty()) {
     object.mesh = make_shape({spec.shape, spec.shape_size, spec.detail, spec.seed});
   } else {
@@ -105,11 +134,15 @@ Object build_object(const MeshSpec& spec, const std::filesystem::path& folder, M
   }
   validate(object.mesh, spec.file.empty() ? spec.shape : spec.file);
   expect_near(object.mesh, object.world_from_object);
+  add_normal_map(object, folder);
   if (spec.albedo_map.empty()) return object;
   if (object.mesh.texture_coordinates.empty())
     throw InputError("albedo_map is given, but the mesh has no texture coordinates");
   auto& map = maps[{folder / spec.albedo_map, spec.albedo_map_encoding}];
-  if (!map) map = read_albedo_map(folder / spec.albedo_map, spec.albedo_map_encoding);
+  if (!map) {
+    map = std::make_shared<const Image<float>>(
+        read_fractions(folder / spec.albedo_map, spec.albedo_map_encoding));
+  }
   object.albedo_map = map;
   return object;
 }
@@ -153,15 +186,23 @@ void check(const MeshSpec& mesh) {
                                          : "file and shape are both given, expected one of the two");
     }
     world_from_file(mesh);
+    check(mesh.effects.gloss, mesh.albedo);
   });
 }
 
-void check(const ProjectorSpec& projector) { check_device(projector.device, "projector"); }
+void check(const ProjectorSpec& projector) {
+  check_device(projector.device, "projector");
+  about(heading("projector", projector.device.name), [&] { check(projector.effects); });
+}
 
-void check(const CameraSpec& camera) { check_device(camera.device, "camera"); }
+void check(const CameraSpec& camera) {
+  check_device(camera.device, "camera");
+  about(heading("camera", camera.device.name), [&] { check(camera.vignetting); });
+}
 
 void check(const SceneSpec& scene) {
   if (scene.meshes.empty()) throw InputError("there is no [[mesh]], expected at least one");
+  check_effects(scene);
   const SceneSpec named = with_names(scene);
   std::set<std::string> names;
   const auto add = [&](const char* kind, const std::string& name) {
@@ -187,7 +228,9 @@ Scene build_scene(const SceneSpec& spec, const std::filesystem::path& folder) {
               .projectors = {},
               .cameras = {},
               .ambient_lx = spec.ambient_lx,
-              .patterns = spec.patterns.kind};
+              .patterns = spec.patterns.kind,
+              .effects = spec.effects,
+              .slide = {}};
   const SceneSpec named = with_names(spec);
   Maps maps;
   for (const MeshSpec& mesh : named.meshes) {
@@ -196,11 +239,23 @@ Scene build_scene(const SceneSpec& spec, const std::filesystem::path& folder) {
         about(heading("mesh", mesh.name), [&] { return build_object(mesh, folder, maps); }));
   }
   for (const ProjectorSpec& p : named.projectors) {
-    scene.projectors.push_back(
-        {device_of(p.device, folder, heading("projector", p.device.name)), p.flux_lm, p.lookup, p.border});
+    const std::string what = heading("projector", p.device.name);
+    check(p);
+    scene.projectors.push_back({device_of(p.device, folder, what), p.flux_lm, p.lookup, p.border, p.effects,
+                                about(what, [&] { return vignetting_map(p.effects.vignetting, folder); })});
   }
-  for (const CameraSpec& c : named.cameras)
-    scene.cameras.push_back({device_of(c.device, folder, heading("camera", c.device.name)), c.sensor});
+  for (const CameraSpec& c : named.cameras) {
+    const std::string what = heading("camera", c.device.name);
+    check(c);
+    scene.cameras.push_back({device_of(c.device, folder, what), c.sensor, c.vignetting,
+                             about(what, [&] { return vignetting_map(c.vignetting, folder); })});
+  }
+  if (spec.effects.slide) {
+    scene.slide = std::make_shared<const Slide>(
+        Slide{about("[patterns]",
+                    [&] { return read_fractions(folder / spec.patterns.file, spec.patterns.encoding); }),
+              spec.patterns.encoding == Encoding::linear});
+  }
   return scene;
 }
 

@@ -42,6 +42,7 @@ struct MeshSpec {
   double albedo = 0.8;
   std::string albedo_map{};
   Encoding albedo_map_encoding = Encoding::srgb;
+  MeshEffects effects{};
   bool operator==(const MeshSpec&) const = default;
 };
 
@@ -69,17 +70,21 @@ struct ProjectorSpec {
   double flux_lm = Projector{}.flux_lm;
   Lookup lookup = Projector{}.lookup;
   Border border = Projector{}.border;
+  ProjectorEffects effects{};
   bool operator==(const ProjectorSpec&) const = default;
 };
 
 struct CameraSpec {
   DeviceSpec device{};
   Sensor sensor{};
+  Vignetting vignetting{};
   bool operator==(const CameraSpec&) const = default;
 };
 
 struct PatternsSpec {
   PatternKind kind = PatternKind::gray;
+  std::string file{};
+  Encoding encoding = Encoding::srgb;
   bool operator==(const PatternsSpec&) const = default;
 };
 
@@ -87,6 +92,7 @@ struct SceneSpec {
   std::string name{};
   double ambient_lx = 0;
   PatternsSpec patterns{};
+  Effects effects{};
   std::vector<MeshSpec> meshes{};
   std::vector<ProjectorSpec> projectors{};
   std::vector<CameraSpec> cameras{};

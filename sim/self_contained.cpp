@@ -35,6 +35,14 @@ void copy_cameramodel(DeviceSpec& device, const char* kind, std::size_t index, c
                            read_text(folder / device.cameramodel, most_bytes));
 }
 
+/// Copies a picture byte for byte under maps/, unless there is none.
+void copy_picture(std::string& file, const std::string& name, const fs::path& folder,
+                  const fs::path& target) {
+  if (file.empty()) return;
+  const fs::path from = folder / file;
+  file = put(target, "maps", name + from.extension().string(), read_text(from, most_bytes));
+}
+
 }  // namespace
 
 SceneSpec write_self_contained(const SceneSpec& spec, const Scene& scene, const fs::path& folder,
@@ -45,15 +53,19 @@ SceneSpec write_self_contained(const SceneSpec& spec, const Scene& scene, const 
     if (!mesh.file.empty())
       mesh.file =
           put(target, "meshes", fmt::format("mesh{}.ply", i + 1), ply_bytes(scene.objects.at(i).mesh));
-    if (mesh.albedo_map.empty()) continue;
-    const fs::path map = folder / mesh.albedo_map;
-    mesh.albedo_map = put(target, "maps", fmt::format("map{}{}", i + 1, map.extension().string()),
-                          read_text(map, most_bytes));
+    copy_picture(mesh.albedo_map, fmt::format("map{}", i + 1), folder, target);
+    copy_picture(mesh.effects.normal_map, fmt::format("normals{}", i + 1), folder, target);
   }
-  for (std::size_t i = 0; i < copy.projectors.size(); ++i)
+  for (std::size_t i = 0; i < copy.projectors.size(); ++i) {
     copy_cameramodel(copy.projectors[i].device, "projector", i, folder, target);
-  for (std::size_t i = 0; i < copy.cameras.size(); ++i)
+    copy_picture(copy.projectors[i].effects.vignetting.map, fmt::format("projector{}", i + 1), folder,
+                 target);
+  }
+  for (std::size_t i = 0; i < copy.cameras.size(); ++i) {
     copy_cameramodel(copy.cameras[i].device, "camera", i, folder, target);
+    copy_picture(copy.cameras[i].vignetting.map, fmt::format("camera{}", i + 1), folder, target);
+  }
+  copy_picture(copy.patterns.file, "slide", folder, target);
   write_file(target / "scene.toml", scene_toml(copy));
   return copy;
 }

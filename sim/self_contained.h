@@ -9,7 +9,7 @@
 namespace laterna {
 
 /// Writes scene.toml into the existing folder `target`, with all that it refers to beside it: meshes as
-/// binary PLY under meshes/, albedo maps under maps/ and camera models under cameramodels/, both byte for
+/// binary PLY under meshes/, pictures under maps/ and camera models under cameramodels/, both byte for
 /// byte. `target` can then be moved, and its scene is built from the same bits. `scene` is build_scene(spec,
 /// folder). Gives back what scene.toml says. Throws InputError where a file cannot be read or written.
 SceneSpec write_self_contained(const SceneSpec& spec, const Scene& scene, const std::filesystem::path& folder,

@@ -1,9 +1,9 @@
 #include "apps/lab/simulation.h"
 
+#include "render/effects/apply_effects.h"
 #include "render/exposure.h"
 #include "render/replay.h"
 #include "sim/error.h"
-#include "sim/pattern.h"
 
 #include <fmt/format.h>
 
@@ -42,17 +42,18 @@ Traced trace(const Scene& scene, StageTimes& times, const Progress& progress) {
     traced.surfaces.push_back(times.measure("surface", [&] { return trace_surface(rays, scene, camera); }));
     traced.points_world.push_back(
         times.measure("surface", [&] { return points_world(traced.surfaces[c], scene); }));
-    for (int p = 0; p < int(scene.projectors.size()); ++p) {
-      View view{
-          c, p,
-          times.measure("light",
-                        [&] { return trace_light(rays, scene, traced.surfaces[c], scene.projectors[p]); }),
-          0};
+    std::vector<LightMap> lights;
+    for (const Projector& projector : scene.projectors) {
+      lights.push_back(
+          times.measure("light", [&] { return trace_light(rays, scene, traced.surfaces[c], projector); }));
+    }
+    times.measure("effects", [&] { apply_effects(traced.surfaces[c], lights, rays, scene, camera); });
+    for (int p = 0; p < int(lights.size()); ++p) {
       const std::optional<double> fixed = fixed_saturation_cd_per_m2(camera.sensor);
-      view.saturation_cd_per_m2 =
+      const double saturation =
           fixed ? *fixed
-                : automatic_saturation_cd_per_m2(traced.surfaces[c], {&view.light, 1}, scene.ambient_lx);
-      traced.views.push_back(std::move(view));
+                : automatic_saturation_cd_per_m2(traced.surfaces[c], {&lights[p], 1}, scene.ambient_lx);
+      traced.views.push_back({c, p, std::move(lights[p]), saturation});
     }
   }
   return traced;
@@ -64,8 +65,7 @@ CapturedStack capture_view(const Scene& scene, const Traced& traced, const View&
   const Exposure exposure = make_exposure(
       scene.cameras[view.camera].sensor, view.saturation_cd_per_m2,
       {seed, static_cast<std::uint32_t>(view.camera), static_cast<std::uint32_t>(view.projector)});
-  const PatternStack patterns = times.measure(
-      "patterns", [&] { return make_pattern_stack(GraySequence{projector.device.intrinsics.size}); });
+  const PatternStack patterns = times.measure("patterns", [&] { return make_patterns(scene, projector); });
   return times.measure("capture", [&] {
     return capture_stack(traced.surfaces[view.camera], view.light, projector, patterns, scene.ambient_lx,
                          exposure);

@@ -1,5 +1,6 @@
 #include "apps/lab/trial.h"
 
+#include "render/effects/scaler.h"
 #include "sim/error.h"
 
 #include <fmt/format.h>
@@ -87,6 +88,8 @@ DecodedMap true_map(const LightMap& light) {
 
 std::vector<ProjectorOutcome> run_trial(const Scene& scene, const Traced& traced, const TrialOptions& options,
                                         StageTimes& times, const ViewSink& sink, const Progress& progress) {
+  if (scene.effects.slide && !options.true_uv)
+    throw InputError("[effects]: slide is on, which tells no pixel its place, expected coded patterns");
   std::vector<ProjectorOutcome> outcomes;
   for (int p = 0; p < int(scene.projectors.size()); ++p) {
     ProjectorOutcome outcome;
@@ -101,8 +104,9 @@ std::vector<ProjectorOutcome> run_trial(const Scene& scene, const Traced& traced
       std::optional<CapturedStack> pictures;
       if (!options.true_uv) pictures = capture_view(scene, traced, view, options.seed, outcome.times);
       const DecodedMap decoded = outcome.times.measure("decode", [&] {
-        return pictures ? decode_gray(*pictures, scene.projectors[p].device.intrinsics.size, options.decode)
-                        : true_map(view.light);
+        return pictures
+                   ? decode_gray(*pictures, input_size(scene.effects, scene.projectors[p]), options.decode)
+                   : true_map(view.light);
       });
       append_correspondences(decoded, traced.points_world[view.camera], view.camera, options.block_px,
                              correspondences);

@@ -1,6 +1,7 @@
 #include "apps/laterna/command.h"
 
 #include "apps/lab/capture_writer.h"
+#include "apps/lab/explain.h"
 #include "sim/scene_build.h"
 #include "sim/scene_file.h"
 
@@ -9,10 +10,23 @@
 
 namespace laterna {
 
+namespace {
+
+void print_effects(const std::vector<EffectCost>& costs, bool json) {
+  if (json) {
+    fmt::print("{}\n", explain_json(costs));
+    return;
+  }
+  fmt::print("{}", explain_text(costs));
+}
+
+}  // namespace
+
 void add_capture(CLI::App& app, Common& common) {
   struct Words {
     std::string scene, out;
     CaptureOptions options;
+    bool explain = false;
   };
   auto words = std::make_shared<Words>();
   CLI::App* command = add_command(app, "capture", "laterna capture scene.toml -o capture",
@@ -20,16 +34,25 @@ void add_capture(CLI::App& app, Common& common) {
                                   "scene, the matrices and the truth per\n"
                                   "pixel into a new folder with a manifest (sim/capture_folder.h).");
   command->add_option("SCENE", words->scene, "Scene file (TOML)")->required();
-  command->add_option("-o,--output", words->out, "New folder")->required();
+  command->add_option("-o,--output", words->out, "New folder (none is needed with --explain)");
   command
       ->add_option("--format", words->options.format,
                    "Picture format: png, tif (fastest, uncompressed) or pgm")
       ->capture_default_str();
   command->add_flag("!--no-truth", words->options.truth, "Leaves out the truth per pixel");
+  command->add_flag("--explain", words->explain,
+                    "Toggles each effect in turn and prints what it costs and changes, in place of a folder");
   command->callback([words, &common] {
+    if (words->out.empty() && !words->explain) throw CLI::RequiredError("--output");
     const SceneSpec spec = with_names(read_scene_spec(words->scene));
     const Scene scene = load_scene(words->scene);
     words->options.seed = common.seed;
+    if (words->explain) {
+      print_effects(
+          explain_effects(spec, scene, common.seed, [&](const std::string& line) { progress(common, line); }),
+          common.json);
+      return;
+    }
     StageTimes times;
     write_capture(spec, scene, std::filesystem::path(words->scene).parent_path(), words->out, words->options,
                   times, [&](const std::string& line) { progress(common, line); });

@@ -169,5 +169,65 @@ TEST(TraceLight, SameBitsForAnyThreads) {
   set_thread_count(0);
 }
 
+TEST(TraceLight, SwitchesTakeOneReasonAwayEach) {
+  Scene scene = scene_of({object_of(plane(1, 1)), object_of(box({0.2, 0.2, 0.2}), {0, 0, 0.5})},
+                         device_at({0.6, 0, 2}, {0, 0, 0}, {60, 60}, 90),
+                         device_at({0, 0, 2}, {0, 0, 0}, {40, 40}, 100));
+  scene.projectors[0].device.planes = {std::nullopt, 1.45};  // ends before the box's top, at 1.4 m, does
+  const Traced all(scene);
+  ASSERT_GT(all.count(Unlit::beyond_far), 100);
+  scene.effects.light_planes = false;
+  const Traced no_planes(scene);
+  EXPECT_EQ(no_planes.count(Unlit::beyond_far), 0);
+  ASSERT_GT(no_planes.count(Unlit::shadow), 20);
+  ASSERT_GT(no_planes.count(Unlit::outside), 20);
+  scene.effects.shadow = false;
+  const Traced no_shadow(scene);
+  EXPECT_EQ(no_shadow.count(Unlit::shadow), 0);
+  EXPECT_EQ(no_shadow.count(Unlit::lit), no_planes.count(Unlit::lit) + no_planes.count(Unlit::shadow));
+  scene.effects.border = false;
+  const Traced no_border(scene);
+  EXPECT_EQ(no_border.count(Unlit::outside), 0);
+  for (std::size_t p = 0; p < no_border.light.white_lx.values.size(); ++p) {
+    if (!no_planes.light.lit(p)) continue;
+    EXPECT_EQ(no_border.light.white_lx.values[p], no_planes.light.white_lx.values[p]);
+    EXPECT_EQ(no_border.light.u_px.values[p], no_planes.light.u_px.values[p]);
+  }
+}
+
+TEST(TraceLight, WithoutBackFaceBothSidesAreLitAndSeen) {
+  const Device above = device_at({0.3, 0, 2}, {0, 0, 0}, {40, 40}, 60),
+               below = device_at({0.3, 0, -2}, {0, 0, 0}, {40, 40}, 60),
+               projector = device_at({0.1, 0, -2}, {0, 0, 0}, {40, 40}, 60);
+  for (const Device& camera : {above, below}) {
+    Scene scene = scene_of({object_of(plane(1, 1))}, camera, projector);
+    ASSERT_EQ(Traced(scene).count(Unlit::lit), 0);
+    scene.effects.back_face = false;
+    const Traced both(scene);
+    EXPECT_GT(both.count(Unlit::lit), 500);  // shadow rays start on the projector's side
+    EXPECT_EQ(both.count(Unlit::back_face) + both.count(Unlit::shadow), 0);
+    for (std::size_t p = 0; p < both.light.why.values.size(); ++p) {
+      if (!both.light.lit(p)) continue;
+      // Tilted by atan(0.05) off the plane's axis: E = Φ·f²·h/z³, z along the projector's axis.
+      const glm::dvec3 x(both.surface.point_object.values[p]), axis = glm::normalize(glm::dvec3(-0.1, 0, 2));
+      const double z = glm::dot(x - glm::dvec3(0.1, 0, -2), axis);
+      EXPECT_NEAR(both.light.white_lx.values[p], 1000.0 / 1600 * 3600 * 2 / (z * z * z), 1e-9);
+      EXPECT_FLOAT_EQ(both.surface.albedo.values[p], 0.8f);
+    }
+  }
+}
+
+TEST(TraceLight, WithoutIrradianceEveryLitPointGetsWhatAFacingPlaneAtOneMetreGets) {
+  Scene scene =
+      scene_of({object_of(relief(2, 2, 0.4, 20, 20))}, device_at({0.2, 0, 2}, {0, 0, 0}, {60, 40}, 80),
+               device_at({-0.2, 0, 2}, {0, 0, 0}, {100, 80}, 60));
+  const Traced on(scene);
+  scene.effects.irradiance = false;
+  const Traced off(scene);
+  EXPECT_EQ(on.light.why.values, off.light.why.values);
+  for (std::size_t p = 0; p < off.light.why.values.size(); ++p)
+    EXPECT_EQ(off.light.white_lx.values[p], off.light.lit(p) ? 1000.0 / 8000 * 3600 : 0);
+}
+
 }  // namespace
 }  // namespace laterna

@@ -192,7 +192,7 @@ TEST(SceneFile, WrongTypesNameWhatWasFoundAndExpected) {
   EXPECT_EQ(error_of("patterns = \"gray\"\n"),
             "scene.toml:1: patterns at the top level is the string \"gray\", expected a table");
   EXPECT_EQ(error_of("[patterns]\nkind = \"grey\"\n"),
-            "scene.toml:2: kind in [patterns] is the string \"grey\", expected \"gray\"");
+            "scene.toml:2: kind in [patterns] is the string \"grey\", expected one of \"gray\", \"slide\"");
 }
 
 TEST(SceneFile, NumbersOutOfRangeOrNotFinite) {
@@ -516,7 +516,8 @@ TEST(SceneFile, AlbedoMapsNeedTextureCoordinates) {
 }
 
 TEST(SceneFile, BuildChecksASpecificationMadeInCode) {
-  SceneSpec spec{.meshes = {MeshSpec{.shape = "plane"}}};
+  SceneSpec spec;
+  spec.meshes.push_back({.shape = "plane"});
   spec.cameras.push_back({.device = {.size = glm::ivec2(10, 10),
                                      .fx = std::nan(""),
                                      .position = glm::dvec3(1),

@@ -1,0 +1,58 @@
+#include "render/effects/apply_effects.h"
+
+#include "render/effects/attenuation.h"
+#include "render/effects/gloss.h"
+#include "render/effects/normal_map.h"
+#include "render/effects/response.h"
+#include "render/effects/scaler.h"
+#include "render/effects/slide.h"
+#include "render/effects/solid_albedo.h"
+#include "render/effects/spotlight.h"
+#include "render/effects/veiling_glare.h"
+#include "render/effects/vignetting.h"
+#include "sim/error.h"
+
+#include <fmt/format.h>
+
+namespace laterna {
+
+void apply_effects(SurfaceMap& surface, std::span<LightMap> lights, const RayScene& rays, const Scene& scene,
+                   const Camera& camera) {
+  if (lights.size() != scene.projectors.size()) {
+    throw InputError(fmt::format("effects: light of {} projectors, expected the scene's {}", lights.size(),
+                                 scene.projectors.size()));
+  }
+  const Effects& on = scene.effects;
+  const PixelGeometry geometry(surface, rays, scene);
+  if (on.solid_albedo) apply_solid_albedo(surface, scene);
+  if (on.gloss) make_room_for_gloss(surface, scene);
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    const Projector& projector = scene.projectors[i];
+    if (on.normal_map && on.irradiance) apply_normal_map(lights[i], geometry, projector);
+    if (on.gloss) apply_gloss(lights[i], geometry, projector, camera);
+    if (on.attenuation) apply_attenuation(lights[i], geometry, projector);
+    if (on.spotlight) apply_spotlight(lights[i], geometry, projector);
+    if (on.projector_vignetting) apply_projector_vignetting(lights[i], geometry, projector);
+  }
+  if (on.camera_vignetting) apply_camera_vignetting(surface, geometry, camera);
+}
+
+void apply_effects(PatternStack& patterns, const Scene& scene, const Projector& projector) {
+  const Effects& on = scene.effects;
+  const ProjectorEffects& effects = projector.effects;
+  if (on.scaler && !(effects.scaler == Scaler{}))
+    patterns = scale_patterns(patterns, effects.scaler, projector.device.intrinsics.size);
+  if (on.response) apply_response(patterns, effects);
+  if (on.black_level) apply_black_level(patterns, effects);
+  if (on.veiling_glare) apply_veiling_glare(patterns, effects);
+}
+
+PatternStack make_patterns(const Scene& scene, const Projector& projector) {
+  const glm::ivec2 size = input_size(scene.effects, projector);
+  PatternStack patterns =
+      scene.effects.slide ? make_slide_stack(*scene.slide, size) : make_pattern_stack({size});
+  apply_effects(patterns, scene, projector);
+  return patterns;
+}
+
+}  // namespace laterna

@@ -1,0 +1,29 @@
+// The effects that a scene has switched on, applied in order.
+#pragma once
+
+#include "render/direct_light.h"
+#include "render/ray_scene.h"
+#include "render/surface.h"
+#include "sim/pattern.h"
+#include "sim/scene.h"
+
+#include <span>
+
+namespace laterna {
+
+/// What edits surfaces and weights, after trace_surface and trace_light: solid albedo; for each projector's
+/// light normal map, gloss, attenuation, spotlight, projector vignetting; then camera vignetting. `lights`
+/// has one per projector of the scene, in its order, all traced from `surface` as `camera` sees it. What is
+/// off leaves every bit as it was. Throws InputError where the counts differ.
+void apply_effects(SurfaceMap& surface, std::span<LightMap> lights, const RayScene& rays, const Scene& scene,
+                   const Camera& camera);
+
+/// What edits patterns: scaler (after which the stack has the panel's size), response, black level, veiling
+/// glare. What is off leaves every bit as it was.
+void apply_effects(PatternStack& patterns, const Scene& scene, const Projector& projector);
+
+/// The scene's patterns as the projector's panel shows them: Gray code or slide, of input_size()
+/// (render/effects/scaler.h), then apply_effects.
+PatternStack make_patterns(const Scene& scene, const Projector& projector);
+
+}  // namespace laterna

@@ -1,0 +1,48 @@
+#include "render/effects/slide.h"
+
+#include "sim/error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace laterna {
+
+namespace {
+
+// IEC 61966-2-1, from value to light.
+double light_of_srgb(double value) {
+  return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
+}
+
+std::array<float, 256> srgb_light() {
+  std::array<float, 256> light{};
+  for (int v = 0; v < 256; ++v) light[v] = static_cast<float>(light_of_srgb(v / 255.0));
+  return light;
+}
+
+double srgb_of_light(double light) {
+  return light <= 0.04045 / 12.92 ? light * 12.92 : 1.055 * std::pow(light, 1 / 2.4) - 0.055;
+}
+
+}  // namespace
+
+PatternStack make_slide_stack(const Slide& slide, const glm::ivec2& size) {
+  const Image<float>& picture = slide.light;
+  if (picture.width != size.x || picture.height != size.y) {
+    throw InputError(fmt::format(
+        "[patterns]: the slide has {}×{} pixels, expected the projector's {}×{} (or input_size of a scaler)",
+        picture.width, picture.height, size.x, size.y));
+  }
+  PatternStack stack{size.x, size.y, 1, {}};
+  if (!slide.is_linear) stack.light_of_value = srgb_light();
+  stack.values.reserve(picture.values.size());
+  for (const float light : picture.values) {
+    const double value = slide.is_linear ? double(light) : srgb_of_light(light);
+    stack.values.push_back(std::uint8_t(std::clamp(std::lround(255 * value), 0L, 255L)));
+  }
+  return stack;
+}
+
+}  // namespace laterna

@@ -1,0 +1,63 @@
+#include "render/effects/vignetting.h"
+
+#include <algorithm>
+
+namespace laterna {
+
+namespace {
+
+double polynomial(const std::vector<double>& coefficients, double x) {
+  double sum = 0;
+  for (auto c = coefficients.rbegin(); c != coefficients.rend(); ++c) sum = (sum + *c) * x;
+  return std::max(0.0, 1 + sum);
+}
+
+double map_value(const Image<float>& map, const glm::dvec2& pixel, const glm::ivec2& size) {
+  const glm::dvec2 at = (pixel + 0.5) / glm::dvec2(size) * glm::dvec2(map.width, map.height) - 0.5;
+  const LinearTaps x = linear_taps(at.x, map.width), y = linear_taps(at.y, map.height);
+  const double upper = glm::mix(double(map(x.first, y.first)), double(map(x.second, y.first)), x.share);
+  const double lower = glm::mix(double(map(x.first, y.second)), double(map(x.second, y.second)), x.share);
+  return glm::mix(upper, lower, y.share);
+}
+
+double tan2(const glm::dvec3& x_device) {
+  return (x_device.x * x_device.x + x_device.y * x_device.y) / (x_device.z * x_device.z);
+}
+
+}  // namespace
+
+double vignetting_share(const Vignetting& vignetting, const Image<float>* map, double tan2_theta,
+                        const glm::dvec2& pixel, const glm::ivec2& size) {
+  switch (vignetting.model) {
+    case VignettingModel::cos4:
+      return 1 / ((1 + tan2_theta) * (1 + tan2_theta));
+    case VignettingModel::polynomial:
+      return polynomial(vignetting.coefficients, tan2_theta);
+    case VignettingModel::map:
+      return map_value(*map, pixel, size);
+    default:
+      return 1;
+  }
+}
+
+void apply_projector_vignetting(LightMap& light, const PixelGeometry& geometry, const Projector& projector) {
+  const Vignetting& vignetting = projector.effects.vignetting;
+  if (vignetting.model == VignettingModel::none) return;
+  weigh(light, [&](std::size_t p) {
+    return vignetting_share(vignetting, projector.vignetting_map.get(),
+                            tan2(geometry.in_device(projector.device, p)),
+                            {light.u_px.values[p], light.v_px.values[p]}, projector.device.intrinsics.size);
+  });
+}
+
+void apply_camera_vignetting(SurfaceMap& surface, const PixelGeometry& geometry, const Camera& camera) {
+  if (camera.vignetting.model == VignettingModel::none) return;
+  const auto width = std::size_t(surface.width);
+  weigh_albedo(surface, [&](std::size_t p) {
+    return vignetting_share(camera.vignetting, camera.vignetting_map.get(),
+                            tan2(geometry.in_device(camera.device, p)),
+                            {double(p % width), double(p / width)}, camera.device.intrinsics.size);
+  });
+}
+
+}  // namespace laterna

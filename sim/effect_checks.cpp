@@ -1,0 +1,122 @@
+#include "sim/effect_checks.h"
+
+#include "sim/error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace laterna {
+
+namespace {
+
+double turn(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
+  const glm::dvec2 ab = b - a, bc = c - b;
+  return ab.x * bc.y - ab.y * bc.x;
+}
+
+template <class Nouns, class Given>
+void expect_given(bool on, const char* name, const char* heading, const char* key, const Nouns& nouns,
+                  const Given& given) {
+  if (!on || std::any_of(nouns.begin(), nouns.end(), given)) return;
+  throw InputError(fmt::format("[effects]: {} is on, but no [[{}]] has the key {}, expected at least one",
+                               name, heading, key));
+}
+
+void check_projector_effects(const SceneSpec& scene) {
+  const auto expect = [&](bool on, const char* name, const char* key, auto&& given) {
+    expect_given(on, name, "projector", key, scene.projectors,
+                 [&](const ProjectorSpec& projector) { return given(projector.effects); });
+  };
+  using P = ProjectorEffects;
+  const Effects& on = scene.effects;
+  expect(on.projector_vignetting, "projector_vignetting", "vignetting",
+         [](const P& p) { return p.vignetting.model != VignettingModel::none; });
+  expect(on.veiling_glare, "veiling_glare", "veiling_glare",
+         [](const P& p) { return p.veiling_glare.has_value(); });
+  expect(on.scaler, "scaler", "scaler", [](const P& p) { return !(p.scaler == Scaler{}); });
+  expect(on.spotlight, "spotlight", "spotlight", [](const P& p) { return !(p.spotlight == Spotlight{}); });
+  expect(on.attenuation, "attenuation", "attenuation", [](const P& p) { return p.attenuation.has_value(); });
+  expect(on.response, "response", "response_exponent (or response_table)",
+         [](const P& p) { return p.response_exponent || !p.response_table.empty(); });
+  expect(on.black_level, "black_level", "black_level", [](const P& p) { return p.black_level.has_value(); });
+}
+
+void check_slide(const SceneSpec& scene) {
+  const bool is_slide = scene.patterns.kind == PatternKind::slide;
+  if (scene.effects.slide && !is_slide)
+    throw InputError("[effects]: slide is on, but kind of [patterns] is \"gray\", expected \"slide\"");
+  if (!scene.effects.slide && is_slide)
+    throw InputError(
+        "[patterns]: kind is \"slide\", but slide of [effects] is off, expected slide = true there");
+  if (is_slide && scene.patterns.file.empty())
+    throw InputError("[effects]: slide is on, but [patterns] has no key file, expected a picture");
+}
+
+}  // namespace
+
+std::array<glm::dvec2, 4> keystone_corners(const Scaler& scaler) {
+  if (scaler.keystone.empty()) return {{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
+  std::array<glm::dvec2, 4> corners;
+  for (int i = 0; i < 4; ++i) corners[i] = {scaler.keystone[2 * i], scaler.keystone[2 * i + 1]};
+  return corners;
+}
+
+void check(const Vignetting& vignetting) {
+  if (vignetting.model == VignettingModel::polynomial && vignetting.coefficients.empty())
+    throw InputError("vignetting: the model is \"polynomial\", but coefficients are missing");
+  if (vignetting.model == VignettingModel::map && vignetting.map.empty())
+    throw InputError("vignetting: the model is \"map\", but map is missing, expected a picture file");
+}
+
+void check(const Scaler& scaler) {
+  if (!scaler.keystone.empty() && scaler.keystone.size() != 8)
+    throw InputError(fmt::format("scaler: keystone has {} numbers, expected 8", scaler.keystone.size()));
+  const auto c = keystone_corners(scaler);
+  for (int i = 0; i < 4; ++i) {
+    // 1e-6: a corner this flat would blow a pixel up to the whole panel.
+    if (!(turn(c[i], c[(i + 1) % 4], c[(i + 2) % 4]) > 1e-6))
+      throw InputError(
+          "scaler: keystone is no convex quadrilateral, expected upper left, upper right, lower right, lower "
+          "left");
+  }
+}
+
+void check(const ProjectorEffects& effects) {
+  check(effects.vignetting);
+  check(effects.scaler);
+  if (effects.attenuation && !(effects.attenuation->x + effects.attenuation->y + effects.attenuation->z > 0))
+    throw InputError("attenuation: all three numbers are 0, expected one above 0");
+  if (effects.response_exponent && !effects.response_table.empty())
+    throw InputError("response_exponent and response_table are both given, expected one of the two");
+  if (effects.response_table.size() == 1)
+    throw InputError("response_table has 1 number, expected at least 2");
+}
+
+void check(const Gloss& gloss, double albedo) {
+  if (gloss.model == GlossModel::phong && !gloss.exponent)
+    throw InputError("gloss: the model is \"phong\", but exponent is missing");
+  if (gloss.model == GlossModel::ggx && !gloss.roughness)
+    throw InputError("gloss: the model is \"ggx\", but roughness is missing");
+  // 1e-12: decimal fractions that add to 1 may miss it by a rounding.
+  if (gloss.model != GlossModel::none && !(albedo + gloss.strength <= 1 + 1e-12)) {
+    throw InputError(fmt::format("gloss: strength {} and albedo {} together reflect more than all light",
+                                 gloss.strength, albedo));
+  }
+}
+
+void check_effects(const SceneSpec& scene) {
+  check_projector_effects(scene);
+  check_slide(scene);
+  const Effects& on = scene.effects;
+  expect_given(on.camera_vignetting, "camera_vignetting", "camera", "vignetting", scene.cameras,
+               [](const CameraSpec& c) { return c.vignetting.model != VignettingModel::none; });
+  expect_given(on.gloss, "gloss", "mesh", "gloss", scene.meshes,
+               [](const MeshSpec& m) { return m.effects.gloss.model != GlossModel::none; });
+  expect_given(on.normal_map, "normal_map", "mesh", "normal_map", scene.meshes,
+               [](const MeshSpec& m) { return !m.effects.normal_map.empty(); });
+  expect_given(on.solid_albedo, "solid_albedo", "mesh", "solid", scene.meshes,
+               [](const MeshSpec& m) { return m.effects.solid.kind != SolidKind::none; });
+}
+
+}  // namespace laterna

@@ -1,0 +1,21 @@
+// Whether what the effects need is there and makes sense.
+#pragma once
+
+#include "sim/scene_spec.h"
+
+namespace laterna {
+
+/// Each throws InputError with a sentence that begins with the key at fault.
+void check(const Vignetting& vignetting);       ///< polynomial: coefficients; map: a file
+void check(const Scaler& scaler);               ///< keystone: 8 numbers, corners of a convex quadrilateral
+void check(const ProjectorEffects& effects);    ///< these two, the response, the attenuation
+void check(const Gloss& gloss, double albedo);  ///< what its model needs; albedo + strength ≤ 1
+
+/// A switch that is on has what it needs on at least one noun; a slide's switch, kind and file go together.
+/// Throws InputError that names the missing key.
+void check_effects(const SceneSpec& scene);
+
+/// The quadrilateral of a scaler, upper left corner first; the panel's corners where no keystone is given.
+std::array<glm::dvec2, 4> keystone_corners(const Scaler& scaler);
+
+}  // namespace laterna

@@ -1,0 +1,56 @@
+// The scene's [effects]: one switch for each physical effect, and the stage on which it acts.
+#pragma once
+
+#include <array>
+
+namespace laterna {
+
+/// Off, an effect leaves no trace: maps, stacks and pictures have the bits that they have without its code.
+struct Effects {
+  bool shadow = true, back_face = true, border = true, light_planes = true, irradiance = true;
+  bool projector_vignetting = false, camera_vignetting = false, veiling_glare = false;
+  bool scaler = false, spotlight = false, attenuation = false, slide = false;
+  bool gloss = false, normal_map = false, solid_albedo = false;
+  bool response = false, black_level = false;
+  bool operator==(const Effects&) const = default;
+};
+
+/// One switch. The description of [effects], its checks and the report of costs go through all_effects.
+struct EffectSwitch {
+  const char* name;      ///< its key
+  const char* stage;     ///< rays, surface, rows, weight, pattern, replay or exposure
+  const char* sentence;  ///< what it does, for the docs
+  bool Effects::*on;
+};
+
+inline constexpr std::array<EffectSwitch, 17> all_effects{{
+    {"shadow", "rows", "What stands between a point and the projector takes its light.", &Effects::shadow},
+    {"back_face", "rows",
+     "A surface is lit and seen on its front only. Off: both sides, whichever of them each device is on.",
+     &Effects::back_face},
+    {"border", "rows",
+     "Light ends at the picture's edge, as `border` of [[projector]] says. Off: the edge pixel's light goes "
+     "on.",
+     &Effects::border},
+    {"light_planes", "rows", "Light begins at `near` and ends at `far` of [[projector]].",
+     &Effects::light_planes},
+    {"irradiance", "weight",
+     "Light falls with distance and incidence. Off: every lit point gets what a facing plane at 1 m gets.",
+     &Effects::irradiance},
+    {"projector_vignetting", "weight", "Needs `vignetting` of a [[projector]].",
+     &Effects::projector_vignetting},
+    {"camera_vignetting", "weight", "Needs `vignetting` of a [[camera]].", &Effects::camera_vignetting},
+    {"veiling_glare", "pattern", "Needs `veiling_glare` of a [[projector]].", &Effects::veiling_glare},
+    {"scaler", "pattern", "Needs `scaler` of a [[projector]].", &Effects::scaler},
+    {"spotlight", "weight", "Needs `spotlight` of a [[projector]].", &Effects::spotlight},
+    {"attenuation", "weight", "Needs `attenuation` of a [[projector]].", &Effects::attenuation},
+    {"slide", "pattern", "Needs `kind = \"slide\"` and `file` of [patterns].", &Effects::slide},
+    {"gloss", "weight", "Needs `gloss` of a [[mesh]].", &Effects::gloss},
+    {"normal_map", "weight", "Needs `normal_map` of a [[mesh]].", &Effects::normal_map},
+    {"solid_albedo", "surface", "Needs `solid` of a [[mesh]].", &Effects::solid_albedo},
+    {"response", "pattern", "Needs `response_exponent` or `response_table` of a [[projector]].",
+     &Effects::response},
+    {"black_level", "pattern", "Needs `black_level` of a [[projector]].", &Effects::black_level},
+}};
+
+}  // namespace laterna

@@ -1,0 +1,39 @@
+#include "apps/lab/explain.h"
+
+#include "sim/scene_build.h"
+#include "sim/scene_file.h"
+#include "tests/testing.h"
+
+#include <gmock/gmock.h>
+
+namespace laterna {
+namespace {
+
+TEST(Explain, TellsWhatEachEffectChanges) {
+  const SceneSpec spec = parse_scene(
+      "[[mesh]]\nshape = \"plane\"\nshape_size = [4, 4, 1]\nsolid = { kind = \"checker\", cell = 0.2, low = "
+      "0.5 }\n"
+      "[[projector]]\nsize = [32, 24]\nthrow_ratio = 1\nposition = [0.2, 0, 2]\nlook_at = [0.2, 0, 0]\n"
+      "up = [0, 1, 0]\nscaler = { overscan = 0.25 }\n"
+      "[[camera]]\nsize = [40, 30]\nfov_x_deg = 40\nposition = [0, 0, 2]\nlook_at = [0, 0, 0]\nup = [0, 1, "
+      "0]\n",
+      "s");
+  const std::vector<EffectCost> costs = explain_effects(spec, build_scene(spec, {}), 1);
+  ASSERT_EQ(costs.size(), all_effects.size());
+  const auto of = [&](const std::string& name) {
+    return *std::find_if(costs.begin(), costs.end(), [&](const EffectCost& c) { return c.name == name; });
+  };
+  EXPECT_TRUE(of("shadow").on);
+  EXPECT_EQ(of("shadow").max_dn, 0);  // a plane has none
+  EXPECT_EQ(of("gloss").max_dn, 0);   // the scene gives it nothing to do
+  EXPECT_FALSE(of("solid_albedo").on);
+  EXPECT_GT(of("solid_albedo").max_dn, 50);
+  EXPECT_EQ(of("solid_albedo").max_uv_px, 0);
+  EXPECT_GT(of("scaler").rms_uv_px, 0.5);  // an eighth of the picture at its edges
+  EXPECT_GT(of("shadow").entries_per_pixel, 0.5);
+  EXPECT_THAT(explain_json(costs), ::testing::HasSubstr("\"stage\":\"pattern\""));
+  EXPECT_THAT(explain_text(costs), ::testing::HasSubstr("solid_albedo"));
+}
+
+}  // namespace
+}  // namespace laterna

@@ -1,0 +1,119 @@
+#include "sim/effect_checks.h"
+
+#include "sim/scene_file.h"
+#include "tests/testing.h"
+
+#include <gmock/gmock.h>
+
+#include <set>
+
+namespace laterna {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+const std::string mesh = "[[mesh]]\nshape = \"plane\"\n";
+const std::string device =
+    "size = [640, 480]\nfx = 500\nposition = [0, 0, 2]\nlook_at = [0, 0, 0]\nup = [0, 1, 0]\n";
+const std::string projector = "[[projector]]\n" + device, camera = "[[camera]]\n" + device;
+const std::string slide = "[patterns]\nkind = \"slide\"\n";
+
+std::string error_of(const std::string& text) {
+  return testing::input_error([&] { parse_scene(text, "s"); });
+}
+std::string switch_on(const std::string& name) { return "[effects]\n" + name + " = true\n"; }
+
+TEST(EffectChecks, ASwitchWithoutItsParametersNamesTheMissingKey) {
+  const std::string scene = mesh + projector + camera;
+  const auto expect = [&](const std::string& name, const std::string& noun, const std::string& key) {
+    EXPECT_THAT(error_of(scene + switch_on(name)),
+                AllOf(HasSubstr("[effects]: " + name + " is on"), HasSubstr("[[" + noun + "]]"),
+                      HasSubstr("the key " + key)));
+  };
+  expect("projector_vignetting", "projector", "vignetting");
+  expect("camera_vignetting", "camera", "vignetting");
+  expect("veiling_glare", "projector", "veiling_glare");
+  expect("scaler", "projector", "scaler");
+  expect("spotlight", "projector", "spotlight");
+  expect("attenuation", "projector", "attenuation");
+  expect("gloss", "mesh", "gloss");
+  expect("normal_map", "mesh", "normal_map");
+  expect("solid_albedo", "mesh", "solid");
+  expect("response", "projector", "response_exponent");
+  expect("black_level", "projector", "black_level");
+}
+
+TEST(EffectChecks, ASlidesThreeKeysGoTogether) {
+  EXPECT_THAT(error_of(mesh + switch_on("slide")), HasSubstr("kind of [patterns] is \"gray\""));
+  EXPECT_THAT(error_of(mesh + slide), HasSubstr("slide of [effects] is off"));
+  EXPECT_THAT(error_of(mesh + slide + switch_on("slide")), HasSubstr("[patterns] has no key file"));
+}
+
+TEST(EffectChecks, ParametersThatMakeNoSense) {
+  const auto projector_error = [&](const std::string& line) { return error_of(mesh + projector + line); };
+  EXPECT_THAT(projector_error("vignetting = { model = \"polynomial\" }\n"),
+              HasSubstr("coefficients are missing"));
+  EXPECT_THAT(projector_error("vignetting = { model = \"map\" }\n"), HasSubstr("map is missing"));
+  EXPECT_THAT(projector_error("attenuation = [0, 0, 0]\n"), HasSubstr("all three numbers are 0"));
+  EXPECT_THAT(projector_error("scaler = { keystone = [0, 0, 1, 0] }\n"),
+              HasSubstr("has 4 numbers, expected 8"));
+  EXPECT_THAT(projector_error("scaler = { keystone = [0, 0, 1, 1, 1, 0, 0, 1] }\n"), HasSubstr("no convex"));
+  EXPECT_THAT(projector_error("response_table = [0.5]\n"), HasSubstr("at least 2"));
+  EXPECT_THAT(projector_error("response_table = [0, 1]\nresponse_exponent = 2\n"), HasSubstr("both given"));
+  EXPECT_THAT(error_of(mesh + "gloss = { model = \"phong\" }\n"), HasSubstr("exponent is missing"));
+  EXPECT_THAT(error_of(mesh + "gloss = { model = \"ggx\" }\n"), HasSubstr("roughness is missing"));
+  EXPECT_THAT(error_of(mesh + "gloss = { model = \"ggx\", roughness = 0.1, strength = 0.3 }\n"),
+              HasSubstr("more than all light"));
+}
+
+TEST(EffectChecks, EveryKeySurvivesWritingAndReading) {
+  SceneSpec scene = parse_scene(mesh + projector + camera, "s");
+  int defaults_on = 0;
+  std::set<std::string> names;
+  for (const EffectSwitch& effect : all_effects) {
+    names.insert(effect.name);
+    defaults_on += scene.effects.*effect.on;
+    scene.effects.*effect.on = !(scene.effects.*effect.on);
+  }
+  EXPECT_EQ(names.size(), all_effects.size());
+  EXPECT_EQ(defaults_on, 5);
+  scene.patterns = {PatternKind::slide, "slide.png", Encoding::linear};
+  scene.meshes[0].albedo = 0.5;
+  scene.meshes[0].effects = {{GlossModel::ggx, 0.25, {}, 0.3}, {SolidKind::noise, 0.7, 0.1}, "n.png"};
+  scene.cameras[0].vignetting = {VignettingModel::map, {}, "v.exr"};
+  scene.projectors[0].effects = {
+      .vignetting = {VignettingModel::polynomial, {-0.1, 0.01}, ""},
+      .spotlight = {20.0, 3, 0.5},
+      .attenuation = glm::dvec3(1, 0.5, 0.25),
+      .scaler = {glm::ivec2(800, 600), 0.05, {0.1, 0, 0.9, 0, 1, 1, 0, 1}, Lookup::nearest},
+      .response_exponent = 1.707,
+      .response_table = {},
+      .black_level = 0.0005,
+      .veiling_glare = 0.03};
+  const std::string text = scene_toml(scene);
+  EXPECT_EQ(parse_scene(text, "s"), scene) << text;
+}
+
+TEST(EffectChecks, PicturesAreReadAndChecked) {
+  const testing::ScratchFolder folder;
+  const auto load = [&](const std::string& text) {
+    return load_scene(testing::write_text(folder / "s.toml", text));
+  };
+  write_picture(folder / "up.exr", Image<glm::vec3>(4, 2, glm::vec3(0.5f, 0.5f, 1)));
+  write_picture(folder / "down.exr", Image<glm::vec3>(4, 2, glm::vec3(0.5f, 0.5f, 0.2f)));
+  write_picture(folder / "half.exr", Image<float>(640, 480, 0.5f));
+  const Scene scene = load(mesh + "normal_map = \"up.exr\"\n" + projector +
+                           "vignetting = { model = \"map\", map = \"half.exr\" }\n" + slide +
+                           "file = \"half.exr\"\n" + switch_on("slide"));
+  EXPECT_EQ((*scene.objects[0].normal_map)(3, 1), glm::vec3(0.5f, 0.5f, 1));
+  EXPECT_EQ((*scene.projectors[0].vignetting_map)(3, 1), 0.5f);
+  EXPECT_EQ(scene.slide->light.width, 640);
+  EXPECT_THAT(testing::input_error([&] { load(mesh + "normal_map = \"down.exr\"\n"); }),
+              HasSubstr("blue above 0.5"));
+  EXPECT_THAT(testing::input_error([&] { load(mesh + "normal_map = \"none.png\"\n"); }),
+              HasSubstr("none.png"));
+}
+
+}  // namespace
+}  // namespace laterna
