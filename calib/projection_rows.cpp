@@ -1,6 +1,6 @@
 #include "calib/projection_rows.h"
 
-#include "calib/instruction_sets.h"
+#include "sim/instruction_sets.h"
 #include "sim/parallel.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "calib/stacked_qr.h"
 
-#include "calib/instruction_sets.h"
+#include "sim/instruction_sets.h"
 #include "sim/parallel.h"
 
 #include <algorithm>

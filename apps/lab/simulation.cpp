@@ -64,12 +64,16 @@ CapturedStack capture_view(const Scene& scene, const Traced& traced, const View&
   const Exposure exposure = make_exposure(
       scene.cameras[view.camera].sensor, view.saturation_cd_per_m2,
       {seed, static_cast<std::uint32_t>(view.camera), static_cast<std::uint32_t>(view.projector)});
-  const PatternStack patterns = times.measure(
-      "patterns", [&] { return make_pattern_stack(GraySequence{projector.device.intrinsics.size}); });
-  return times.measure("capture", [&] {
-    return capture_stack(traced.surfaces[view.camera], view.light, projector, patterns, scene.ambient_lx,
-                         exposure);
-  });
+  const GraySequence sequence{projector.device.intrinsics.size};
+  const auto play = [&](const AnyPatterns& patterns) {
+    return times.measure("capture", [&] {
+      return capture_stack(traced.surfaces[view.camera], view.light, projector, patterns, scene.ambient_lx,
+                           exposure);
+    });
+  };
+  if (projector.lookup == Lookup::nearest)
+    return play(times.measure("patterns", [&] { return make_binary_pattern_stack(sequence); }));
+  return play(times.measure("patterns", [&] { return make_pattern_stack(sequence); }));
 }
 
 Overlap overlap(const Scene& scene, const Traced& traced, const View& view) {

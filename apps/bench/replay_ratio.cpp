@@ -1,0 +1,162 @@
+#include "apps/bench/replay_ratio.h"
+
+#include "apps/bench/timing.h"
+#include "apps/lab/trial.h"
+#include "render/noise.h"
+#include "render/replay.h"
+#include "sim/parallel.h"
+
+#include <cstring>
+#include <functional>
+#include <random>
+
+namespace laterna {
+
+namespace {
+
+// One value for each byte of a stack, in as many pieces as replay's regions; each repeat writes another.
+double fill_seconds(CapturedStack& stack) {
+  auto& values = std::get<ImageStack<std::uint8_t>>(stack).values;
+  constexpr std::size_t piece = std::size_t{1} << 18;
+  static int value = 0;
+  ++value;
+  return seconds([&] {
+    parallel_for((values.size() + piece - 1) / piece, [&](std::size_t i) {
+      std::memset(values.data() + i * piece, value, std::min(piece, values.size() - i * piece));
+    });
+  });
+}
+
+// The rows of a whole image, kept for replay alone.
+struct KeptRows {
+  std::vector<LightRows> tiles;
+  ImageRows image;
+
+  explicit KeptRows(const ImageRows& source) : image(source) {
+    const glm::ivec2 step = source.region_px;
+    for (int y = 0; y < source.size.y; y += step.y) {
+      for (int x = 0; x < source.size.x; x += step.x) {
+        const glm::ivec2 size = glm::min(step, source.size - glm::ivec2(x, y));
+        tiles.emplace_back().region = {x, y, size.x, size.y};
+        source.rows(tiles.back());
+      }
+    }
+    const int columns = (source.size.x + step.x - 1) / step.x;
+    image.rows = [this, columns, step](LightRows& rows) {
+      const LightRows& kept = tiles[std::size_t(rows.region.y / step.y) * columns + rows.region.x / step.x];
+      rows.begin = kept.begin;
+      rows.entries = kept.entries;
+      rows.ambient_cd_per_m2 = kept.ambient_cd_per_m2;
+    };
+  }
+  KeptRows(const KeptRows&) = delete;
+  KeptRows& operator=(const KeptRows&) = delete;
+};
+
+struct Prepared {
+  RayScene rays;
+  CameraRays directions;
+  SurfaceMap surface;
+  LightMap light;
+  Exposure exposure;
+
+  explicit Prepared(const Scene& scene)
+      : rays(scene),
+        directions(scene.cameras[0].device),
+        surface(trace_surface(rays, scene, scene.cameras[0], directions)),
+        light(trace_light(rays, scene, surface, scene.projectors[0])),
+        exposure(make_exposure({}, automatic_saturation_cd_per_m2(surface, {&light, 1}, 0), {})) {}
+  ImageRows image(const Scene& scene, int samples) const {
+    return {scene.cameras[0].device.intrinsics.size, trace_rows(rays, scene, 0, directions, 0, {samples, 1})};
+  }
+};
+
+double std_normal_over_noise(std::uint32_t samples) {
+  std::mt19937_64 engine(1);
+  std::normal_distribution<float> normal;
+  volatile float sink = 0;
+  const double standard = seconds([&] {
+    float sum = 0;
+    for (std::uint32_t i = 0; i < samples; ++i) sum += normal(engine);
+    sink = sum;
+  });
+  const double own = seconds([&] {
+    float sum = 0;
+    for (std::uint32_t i = 0; i < samples / 4; ++i) {
+      float deviates[4];
+      normal_deviates({1, 0, 0}, i, 0, deviates);
+      sum += deviates[0] + deviates[1] + deviates[2] + deviates[3];
+    }
+    sink = sum;
+  });
+  static_cast<void>(sink);
+  return standard / own;
+}
+
+}  // namespace
+
+ReplayTimes time_replay(const Scene& scene, int repeats) {
+  const GraySequence sequence{scene.projectors[0].device.intrinsics.size};
+  const PatternStack values = make_pattern_stack(sequence);
+  const BinaryPatternStack bits = make_binary_pattern_stack(sequence);
+  const Prepared prepared(scene);
+  const KeptRows kept(prepared.image(scene, 1));
+  Exposure noisy = prepared.exposure;
+  noisy.noise_sigma_dn = 1.5;
+  CapturedStack stack = play_stack(kept.image, Lookup::nearest, bits, prepared.exposure);
+  const auto play = [&](Lookup lookup, const AnyPatterns& patterns, const Exposure& exposure) {
+    return seconds([&] { play_stack(kept.image, lookup, patterns, exposure, stack); });
+  };
+  std::vector<double> fill, binary, bilinear, noise, binary_ratio, bilinear_ratio, noise_ratio, normal_ratio;
+  for (int i = -1; i < repeats; ++i) {  // the first round warms up
+    const double f = fill_seconds(stack), b = play(Lookup::nearest, bits, prepared.exposure);
+    const double v = play(Lookup::bilinear, values, prepared.exposure), n = play(Lookup::bilinear, values, noisy);
+    const double r = std_normal_over_noise(1u << 20);
+    if (i < 0) continue;
+    fill.push_back(f), binary.push_back(b), bilinear.push_back(v), noise.push_back(n);
+    binary_ratio.push_back(b / f), bilinear_ratio.push_back(v / f), noise_ratio.push_back((n - v) / v);
+    normal_ratio.push_back(r);
+  }
+  return {median(fill),           median(binary),      median(bilinear),    median(noise), median(binary_ratio),
+          median(bilinear_ratio), median(noise_ratio), median(normal_ratio)};
+}
+
+StackTimes time_stack(const Scene& scene, int repeats) {
+  const Camera& camera = scene.cameras[0];
+  const BinaryPatternStack bits = make_binary_pattern_stack({scene.projectors[0].device.intrinsics.size});
+  const Exposure exposure = Prepared(scene).exposure;
+  std::vector<double> one, sixteen, ratio;
+  for (int i = -1; i < repeats; ++i) {
+    double build = 0, played[2];
+    for (const int samples : {1, 16}) {
+      std::unique_ptr<RayScene> rays;
+      build = seconds([&] { rays = std::make_unique<RayScene>(scene); });
+      played[samples == 16] = seconds([&] {
+        const CameraRays directions(camera.device);
+        const ImageRows image{camera.device.intrinsics.size,
+                              trace_rows(*rays, scene, 0, directions, 0, {samples, 1})};
+        const CapturedStack stack = play_stack(image, Lookup::nearest, bits, exposure);
+      });
+      if (i >= 0) (samples == 16 ? sixteen : one).push_back(build + played[samples == 16]);
+    }
+    if (i >= 0) ratio.push_back(played[1] / played[0]);
+  }
+  return {median(one), median(sixteen), median(ratio)};
+}
+
+double time_roundtrip(const Scene& source, int repeats) {
+  Scene scene = source;
+  scene.cameras[0].sensor.noise_sigma_dn = 1.5;
+  std::vector<double> times;
+  for (int i = -1; i < repeats; ++i) {
+    const double s = seconds([&] {
+      StageTimes stages;
+      const Traced traced = trace(scene, stages);
+      run_trial(scene, traced, {}, stages);
+    });
+    if (i >= 0) times.push_back(s);
+  }
+  return median(times);
+}
+
+}  // namespace laterna
