@@ -7,8 +7,8 @@
 
 namespace laterna {
 
-/// One row of A per pixel of a SurfaceMap, with one entry: the projector pixel (u, v) that lights the pixel's point,
-/// and its weight. The illuminance for a picture with value p in [0, 1] at (u, v) is white_lx·p.
+/// One row of A per pixel of a SurfaceMap, with one entry: the projector pixel (u, v) that lights the pixel's
+/// point, and its weight. The illuminance for a picture with value p in [0, 1] at (u, v) is white_lx·p.
 struct LightMap {
   int width = 0, height = 0;
   PixelArray<double> u_px, v_px;  ///< projector pixel, also where the point is dark for another reason than

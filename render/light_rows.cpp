@@ -157,8 +157,8 @@ RowSource trace_rows(const RayScene& rays, const Scene& scene, int camera, const
                      int projector, const PixelSamples& samples) {
   constexpr int most = 4096;
   if (samples.count < 1 || samples.count > most)
-    throw InputError(
-        fmt::format("samples per pixel: {} was found, expected a whole number from 1 to {}", samples.count, most));
+    throw InputError(fmt::format("samples per pixel: {} was found, expected a whole number from 1 to {}",
+                                 samples.count, most));
   const auto tracer = std::make_shared<Tracer>(rays, scene, camera, directions, projector, samples);
   return [tracer](LightRows& rows) { (*tracer)(rows); };
 }

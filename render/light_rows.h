@@ -1,4 +1,5 @@
-// The rows of A: image = A·pattern + ambient, a region of the camera's image at a time. A is never held whole.
+// The rows of A: image = A·pattern + ambient, a region of the camera's image at a time. A is never held
+// whole.
 #pragma once
 
 #include "render/direct_light.h"
@@ -19,13 +20,13 @@ struct LightEntry {
 /// entries[begin[p + 1] - 1]. One projector is the source of them all.
 struct LightRows {
   PixelRegion region;
-  std::vector<std::uint32_t> begin;      ///< region.size() + 1
-  std::vector<LightEntry> entries;       ///< none where the pixel is dark
-  std::vector<double> ambient_cd_per_m2; ///< one per pixel
+  std::vector<std::uint32_t> begin;       ///< region.size() + 1
+  std::vector<LightEntry> entries;        ///< none where the pixel is dark
+  std::vector<double> ambient_cd_per_m2;  ///< one per pixel
 };
 
-/// Fills `rows` for rows.region, which the caller sets; what `rows` held before is replaced. Called on several
-/// threads at once. Effects wrap one of these in another.
+/// Fills `rows` for rows.region, which the caller sets; what `rows` held before is replaced. Called on
+/// several threads at once. Effects wrap one of these in another.
 using RowSource = std::function<void(LightRows& rows)>;
 
 /// Rows of direct light, one entry where lit, from maps that cover the region (the whole image's, say).
@@ -37,10 +38,10 @@ struct PixelSamples {
   std::uint64_t seed = 0;
 };
 
-/// Where sample `sample` of a camera's pixel lies beside the pixel's centre, in [-0.5, 0.5)². The pixel is cut
-/// into columns × rows = count cells, as near to square as count's divisors allow, and each sample is uniform
-/// in a cell of its own: Philox4x32-10 with counter (x, y, sample/4, camera) under the key `seed`. (0, 0) where
-/// count is 1.
+/// Where sample `sample` of a camera's pixel lies beside the pixel's centre, in [-0.5, 0.5)². The pixel is
+/// cut into columns × rows = count cells, as near to square as count's divisors allow, and each sample is
+/// uniform in a cell of its own: Philox4x32-10 with counter (x, y, sample/4, camera) under the key `seed`.
+/// (0, 0) where count is 1.
 glm::vec2 sample_offset_px(const PixelSamples& samples, std::uint32_t camera, const glm::ivec2& pixel,
                            int sample);
 

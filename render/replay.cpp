@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <type_traits>
+#include <cstddef>
 
 namespace laterna {
 
@@ -21,7 +21,8 @@ struct Play {
   double scale;  // of luminance
 };
 
-// Up to 64 pixels of one image row, and what their playing needs. level = base + Σ gain·value, value in 0..255.
+// Up to 64 pixels of one image row, and what their playing needs. level = base + Σ gain·value, value in
+// 0..255.
 struct Block {
   int pixels;
   std::size_t first;           // index of the first pixel in the image
@@ -37,7 +38,7 @@ struct Block {
   std::vector<float> scratch, levels;  // levels[k·64 + i]
 };
 
-float gain_of(const LightEntry& entry, const Play& play) {
+inline float gain_of(const LightEntry& entry, const Play& play) {
   return static_cast<float>(play.scale / 255 * entry.weight);
 }
 
@@ -49,14 +50,20 @@ Corners corners_of(const LightEntry& entry, const AnyPatterns& patterns) {
   return {linear_taps(entry.u_px, patterns.width), linear_taps(entry.v_px, patterns.height)};
 }
 
-std::uint64_t nearest_code(const LightEntry& entry, const BinaryPatternStack& patterns) {
+inline std::uint64_t nearest_code(const LightEntry& entry, const BinaryPatternStack& patterns) {
   return patterns.code(nearest_texel(entry.u_px, patterns.width), nearest_texel(entry.v_px, patterns.height));
+}
+
+// Asks for a texel's memory ahead of its use: stacks are larger than caches.
+inline void fetch_ahead(const std::uint8_t* texel, int count) {
+  for (int k = 0; k < count + 63; k += 64) __builtin_prefetch(texel + std::min(k, count - 1));
 }
 
 void add_tap(const LightEntry& entry, const Play& play, std::vector<NearestTap>& taps) {
   const PatternStack& p = *play.patterns.values;
   taps.push_back({p.texel(nearest_texel(entry.u_px, p.width), nearest_texel(entry.v_px, p.height)),
                   gain_of(entry, play)});
+  fetch_ahead(taps.back().texel, p.count);
 }
 
 void add_tap(const LightEntry& entry, const Play& play, std::vector<BilinearTap>& taps) {
@@ -64,6 +71,8 @@ void add_tap(const LightEntry& entry, const Play& play, std::vector<BilinearTap>
   const auto [x, y] = corners_of(entry, play.patterns);
   taps.push_back({p.texel(x.first, y.first), p.texel(x.second, y.first), p.texel(x.first, y.second),
                   p.texel(x.second, y.second), float(x.share), float(y.share), gain_of(entry, play)});
+  fetch_ahead(taps.back().a, p.count);
+  fetch_ahead(taps.back().d, p.count);
 }
 
 void add_tap(const LightEntry& entry, const Play& play, std::vector<BitTap>& taps) {
@@ -142,7 +151,8 @@ bool has_two_levels(const Block& b, const Play& play, const Exposure& exposure) 
 void check(const ImageRows& image) {
   const glm::ivec2 r = image.region_px;
   if (r.x < tile_edge || r.y < tile_edge || r.x % tile_edge != 0 || r.y % tile_edge != 0)
-    throw InputError(fmt::format("replay: regions of {}x{} pixels, expected multiples of {}", r.x, r.y, tile_edge));
+    throw InputError(
+        fmt::format("replay: regions of {}x{} pixels, expected multiples of {}", r.x, r.y, tile_edge));
 }
 
 glm::ivec2 region_count(const ImageRows& image) {
@@ -156,39 +166,53 @@ PixelRegion region_of(const ImageRows& image, int index) {
   return {first.x, first.y, size.x, size.y};
 }
 
-// Calls play_block(block) for all pixels of the image.
-template <class PlayBlock>
-void for_each_block(const ImageRows& image, const PlayBlock& play_block) {
+// Calls work(rows) for each region of the image.
+template <class Work>
+void for_each_region(const ImageRows& image, const Work& work) {
   check(image);
   const glm::ivec2 regions = region_count(image);
   parallel_for(std::size_t(regions.x) * regions.y, [&](std::size_t index) {
     LightRows rows;
-    Block b;
     rows.region = region_of(image, int(index));
     image.rows(rows);
-    for (int y = 0; y < rows.region.height; ++y) {
-      for (int x = 0; x < rows.region.width; x += block) {
-        const std::size_t p = std::size_t(y) * rows.region.width + x;
-        b.pixels = std::min(block, rows.region.width - x);
-        b.first = std::size_t(rows.region.y + y) * image.size.x + rows.region.x + x;
-        b.begin = rows.begin.data() + p;
-        b.entries = rows.entries.data();
-        b.ambient = rows.ambient_cd_per_m2.data() + p;
-        play_block(b);
-      }
-    }
+    work(rows);
   });
 }
 
+// Calls play_block(b, x) for the blocks of row y of a region; x is the first pixel's place in the row.
+template <class PlayBlock>
+void for_each_block(Block& b, const LightRows& rows, int y, int image_width, const PlayBlock& play_block) {
+  for (int x = 0; x < rows.region.width; x += block) {
+    const std::size_t p = std::size_t(y) * rows.region.width + x;
+    b.pixels = std::min(block, rows.region.width - x);
+    b.first = std::size_t(rows.region.y + y) * image_width + rows.region.x + x;
+    b.begin = rows.begin.data() + p;
+    b.entries = rows.entries.data();
+    b.ambient = rows.ambient_cd_per_m2.data() + p;
+    play_block(b, x);
+  }
+}
+
+// A row of all pictures is made in the cache first and written in long runs: planes whose sizes are multiples
+// of 4096 bytes would push each other out of it.
 template <class Number>
-void play_into(const ImageRows& image, const Play& play, const Exposure& exposure, ImageStack<Number>& out) {
-  for_each_block(image, [&](Block& b) {
-    const Planes<Number> planes{out.values.data() + b.first, out.picture_size()};
-    if (has_two_levels(b, play, exposure)) return expand_block(b, play, exposure, planes);
-    sum_block(b, play);
-    if (exposure.noise_sigma_dn > 0) add_noise(b, play, exposure);
-    quantise(b.levels.data(), float(exposure.full_scale()), b.pixels, play.patterns.count, planes);
-  });
+void play_region(const LightRows& rows, const Play& play, const Exposure& exposure, ImageStack<Number>& out) {
+  const std::size_t width = rows.region.width, plane = out.picture_size();
+  PixelArray<Number> stage(rows.region.width, play.patterns.count);
+  Block b;
+  for (int y = 0; y < rows.region.height; ++y) {
+    for_each_block(b, rows, y, out.width, [&](Block&, int x) {
+      const Planes<Number> planes{stage.values.data() + x, width};
+      if (has_two_levels(b, play, exposure)) return expand_block(b, play, exposure, planes);
+      sum_block(b, play);
+      if (exposure.noise_sigma_dn > 0) add_noise(b, play, exposure);
+      quantise(b.levels.data(), float(exposure.full_scale()), b.pixels, play.patterns.count, planes);
+    });
+    Number* to = out.values.data() + std::size_t(rows.region.y + y) * out.width + rows.region.x;
+    stream_rows(reinterpret_cast<const std::byte*>(stage.values.data()), width * sizeof(Number),
+                width * sizeof(Number), play.patterns.count, reinterpret_cast<std::byte*>(to),
+                plane * sizeof(Number));
+  }
 }
 
 CapturedStack make_stack(const glm::ivec2& size, int count, const Exposure& exposure) {
@@ -220,18 +244,28 @@ void scatter(const LightRows& rows, Lookup lookup, const Image<float>& camera_im
 ImageStack<float> play_luminance(const ImageRows& image, Lookup lookup, const AnyPatterns& patterns) {
   const Play play{lookup, patterns, 1};
   ImageStack<float> out(image.size.x, image.size.y, patterns.count);
-  for_each_block(image, [&](Block& b) {
-    sum_block(b, play);
-    for (int k = 0; k < patterns.count; ++k)
-      std::copy_n(b.levels.data() + std::size_t(k) * block, b.pixels, out.picture(k).data() + b.first);
+  for_each_region(image, [&](const LightRows& rows) {
+    Block b;
+    for (int y = 0; y < rows.region.height; ++y) {
+      for_each_block(b, rows, y, image.size.x, [&](Block&, int) {
+        sum_block(b, play);
+        for (int k = 0; k < patterns.count; ++k)
+          std::copy_n(b.levels.data() + std::size_t(k) * block, b.pixels, out.picture(k).data() + b.first);
+      });
+    }
   });
   return out;
 }
 
+void play_rows(const LightRows& rows, Lookup lookup, const AnyPatterns& patterns, const Exposure& exposure,
+               CapturedStack& out) {
+  const Play play{lookup, patterns, exposure.full_scale() / exposure.saturation_cd_per_m2};
+  std::visit([&](auto& stack) { play_region(rows, play, exposure, stack); }, out);
+}
+
 void play_stack(const ImageRows& image, Lookup lookup, const AnyPatterns& patterns, const Exposure& exposure,
                 CapturedStack& out) {
-  const Play play{lookup, patterns, exposure.full_scale() / exposure.saturation_cd_per_m2};
-  std::visit([&](auto& stack) { play_into(image, play, exposure, stack); }, out);
+  for_each_region(image, [&](const LightRows& rows) { play_rows(rows, lookup, patterns, exposure, out); });
 }
 
 CapturedStack play_stack(const ImageRows& image, Lookup lookup, const AnyPatterns& patterns,

@@ -26,8 +26,9 @@ struct ImageRows {
   glm::ivec2 region_px{256, 4};  ///< what is asked for at a time; multiples of 4; no bits depend on it
 };
 
-/// Picture k at each camera pixel before exposure, in cd/m²: Σ weight·p_k(u, v) over the pixel's entries, plus
-/// its ambient light, where p_k in [0, 1] is value/255 of what `lookup` finds at (u, v). In single precision.
+/// Picture k at each camera pixel before exposure, in cd/m²: Σ weight·p_k(u, v) over the pixel's entries,
+/// plus its ambient light, where p_k in [0, 1] is value/255 of what `lookup` finds at (u, v). In single
+/// precision.
 ImageStack<float> play_luminance(const ImageRows& image, Lookup lookup, const AnyPatterns& patterns);
 
 /// The same, exposed: 8-bit pictures for a bit depth of 8, else 16-bit. Arithmetic is in single precision: up
@@ -39,15 +40,19 @@ CapturedStack play_stack(const ImageRows& image, Lookup lookup, const AnyPattern
 void play_stack(const ImageRows& image, Lookup lookup, const AnyPatterns& patterns, const Exposure& exposure,
                 CapturedStack& out);
 
-/// Aᵀ·y: at each projector pixel, the sum over camera pixels and entries of weight·share·y, where share is what
-/// `lookup` takes of the texel for the entry. So y·(A·p) = p·(Aᵀ·y) for any picture p in [0, 1]. `camera_image`
-/// has the camera's size.
+/// One region's part of that. `out` is of the whole image.
+void play_rows(const LightRows& rows, Lookup lookup, const AnyPatterns& patterns, const Exposure& exposure,
+               CapturedStack& out);
+
+/// Aᵀ·y: at each projector pixel, the sum over camera pixels and entries of weight·share·y, where share is
+/// what `lookup` takes of the texel for the entry. So y·(A·p) = p·(Aᵀ·y) for any picture p in [0, 1].
+/// `camera_image` has the camera's size.
 Image<double> apply_transpose(const ImageRows& image, Lookup lookup, const Image<float>& camera_image,
                               glm::ivec2 projector_size);
 
-/// Direct light from maps of the whole image, played and exposed. Pixels without the projector's light get the
-/// ambient light; those that see nothing, or a back side, are black (but for noise). Throws InputError where
-/// the patterns are not of the projector's size or the maps not of one size.
+/// Direct light from maps of the whole image, played and exposed. Pixels without the projector's light get
+/// the ambient light; those that see nothing, or a back side, are black (but for noise). Throws InputError
+/// where the patterns are not of the projector's size or the maps not of one size.
 CapturedStack capture_stack(const SurfaceMap& surface, const LightMap& light, const Projector& projector,
                             const AnyPatterns& patterns, double ambient_lx, const Exposure& exposure);
 

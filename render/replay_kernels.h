@@ -56,4 +56,9 @@ void expand_bits(const std::uint64_t* codes, const std::uint8_t* off, const std:
 void expand_bits(const std::uint64_t* codes, const std::uint16_t* off, const std::uint16_t* on, int pixels,
                  int count, Planes<std::uint16_t> out);
 
+/// Copies rows of bytes, `count` of them, past the cache where the machine can: from + k·from_stride to
+/// to + k·to_stride.
+void stream_rows(const std::byte* from, std::size_t from_stride, std::size_t bytes, int count, std::byte* to,
+                 std::size_t to_stride);
+
 }  // namespace laterna

@@ -63,7 +63,8 @@ void apply_albedo_map(SurfaceMap& map, std::size_t p, const Object& object, std:
   map.albedo.values[p] *= static_cast<float>(albedo_map_value(*object.albedo_map, st));
 }
 
-void write_tile(SurfaceMap& map, const Tile& tile, const CameraView& view, const RayScene& scene, int x0, int y0) {
+void write_tile(SurfaceMap& map, const Tile& tile, const CameraView& view, const RayScene& scene, int x0,
+                int y0) {
   for (int j = 0; j < tile.count_y; ++j) {
     for (int i = 0; i < tile.count_x; ++i) {
       const int lane = j * tile_edge + i;

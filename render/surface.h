@@ -10,8 +10,9 @@
 
 namespace laterna {
 
-/// One entry per camera pixel, of the whole image or of a region of it. Where nothing is hit, object and triangle are no_hit, albedo is 0, and point
-/// and depth are NaN. World points and normals follow from these: see below.
+/// One entry per camera pixel, of the whole image or of a region of it. Where nothing is hit, object and
+/// triangle are no_hit, albedo is 0, and point and depth are NaN. World points and normals follow from these:
+/// see below.
 struct SurfaceMap {
   int width = 0, height = 0;
   PixelArray<std::uint32_t> object;     ///< index into Scene::objects, or no_hit

@@ -3,8 +3,8 @@
 #include "apps/bench/stage_ratio.h"
 #include "sim/parallel.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include <string>
@@ -77,5 +77,6 @@ int main(int argc, char** argv) {
     return 0;
   }
   for (const auto& [name, value] : result.items())
-    fmt::print("{:28}{}\n", name, value.is_number_float() ? fmt::format("{:.4g}", value.get<double>()) : value.dump());
+    fmt::print("{:28}{}\n", name,
+               value.is_number_float() ? fmt::format("{:.4g}", value.get<double>()) : value.dump());
 }

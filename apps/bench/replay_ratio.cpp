@@ -7,7 +7,6 @@
 #include "sim/parallel.h"
 
 #include <cstring>
-#include <functional>
 #include <random>
 
 namespace laterna {
@@ -27,30 +26,31 @@ double fill_seconds(CapturedStack& stack) {
   });
 }
 
-// The rows of a whole image, kept for replay alone.
-struct KeptRows {
-  std::vector<LightRows> tiles;
+// The rows of some regions around the image's middle, as the tracer leaves them in the cache, played over and
+// over until the image is full.
+struct WarmRows {
+  std::vector<LightRows> rows;
   ImageRows image;
 
-  explicit KeptRows(const ImageRows& source) : image(source) {
-    const glm::ivec2 step = source.region_px;
-    for (int y = 0; y < source.size.y; y += step.y) {
-      for (int x = 0; x < source.size.x; x += step.x) {
-        const glm::ivec2 size = glm::min(step, source.size - glm::ivec2(x, y));
-        tiles.emplace_back().region = {x, y, size.x, size.y};
-        source.rows(tiles.back());
-      }
+  explicit WarmRows(const ImageRows& source) : image(source) {
+    constexpr int kept = 4;
+    const glm::ivec2 step = source.region_px, middle = source.size / 2 / step * step;
+    for (int i = 0; i < kept; ++i) {
+      rows.emplace_back().region = {middle.x, middle.y + i * step.y, step.x, step.y};
+      source.rows(rows.back());
     }
-    const int columns = (source.size.x + step.x - 1) / step.x;
-    image.rows = [this, columns, step](LightRows& rows) {
-      const LightRows& kept = tiles[std::size_t(rows.region.y / step.y) * columns + rows.region.x / step.x];
-      rows.begin = kept.begin;
-      rows.entries = kept.entries;
-      rows.ambient_cd_per_m2 = kept.ambient_cd_per_m2;
-    };
   }
-  KeptRows(const KeptRows&) = delete;
-  KeptRows& operator=(const KeptRows&) = delete;
+  void play(Lookup lookup, const AnyPatterns& patterns, const Exposure& exposure, CapturedStack& out) const {
+    const glm::ivec2 count = image.size / image.region_px;
+    parallel_for(count.y, [&](std::size_t y) {
+      std::vector<LightRows> own = rows;  // each thread's cache holds its own
+      for (int x = 0; x < count.x; ++x) {
+        LightRows& r = own[x % own.size()];
+        r.region.x = x * image.region_px.x, r.region.y = int(y) * image.region_px.y;
+        play_rows(r, lookup, patterns, exposure, out);
+      }
+    });
+  }
 };
 
 struct Prepared {
@@ -100,25 +100,26 @@ ReplayTimes time_replay(const Scene& scene, int repeats) {
   const PatternStack values = make_pattern_stack(sequence);
   const BinaryPatternStack bits = make_binary_pattern_stack(sequence);
   const Prepared prepared(scene);
-  const KeptRows kept(prepared.image(scene, 1));
+  const WarmRows warm(prepared.image(scene, 1));
   Exposure noisy = prepared.exposure;
   noisy.noise_sigma_dn = 1.5;
-  CapturedStack stack = play_stack(kept.image, Lookup::nearest, bits, prepared.exposure);
+  CapturedStack stack = play_stack(warm.image, Lookup::nearest, bits, prepared.exposure);
   const auto play = [&](Lookup lookup, const AnyPatterns& patterns, const Exposure& exposure) {
-    return seconds([&] { play_stack(kept.image, lookup, patterns, exposure, stack); });
+    return seconds([&] { warm.play(lookup, patterns, exposure, stack); });
   };
   std::vector<double> fill, binary, bilinear, noise, binary_ratio, bilinear_ratio, noise_ratio, normal_ratio;
   for (int i = -1; i < repeats; ++i) {  // the first round warms up
     const double f = fill_seconds(stack), b = play(Lookup::nearest, bits, prepared.exposure);
-    const double v = play(Lookup::bilinear, values, prepared.exposure), n = play(Lookup::bilinear, values, noisy);
+    const double v = play(Lookup::bilinear, values, prepared.exposure),
+                 n = play(Lookup::bilinear, values, noisy);
     const double r = std_normal_over_noise(1u << 20);
     if (i < 0) continue;
     fill.push_back(f), binary.push_back(b), bilinear.push_back(v), noise.push_back(n);
     binary_ratio.push_back(b / f), bilinear_ratio.push_back(v / f), noise_ratio.push_back((n - v) / v);
     normal_ratio.push_back(r);
   }
-  return {median(fill),           median(binary),      median(bilinear),    median(noise), median(binary_ratio),
-          median(bilinear_ratio), median(noise_ratio), median(normal_ratio)};
+  return {median(fill),         median(binary),         median(bilinear),    median(noise),
+          median(binary_ratio), median(bilinear_ratio), median(noise_ratio), median(normal_ratio)};
 }
 
 StackTimes time_stack(const Scene& scene, int repeats) {

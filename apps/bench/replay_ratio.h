@@ -8,12 +8,13 @@ namespace laterna {
 /// Seconds, medians over repeats taken in turn; ratios are medians of the ratios within each repeat.
 struct ReplayTimes {
   double fill = 0;      ///< writing the stack's bytes once, with the threads that are set
-  double binary = 0;    ///< Gray stack as bits, nearest, no noise; rows ready in memory
+  double binary = 0;    ///< Gray stack as bits, nearest, no noise; rows warm in the cache, as they are
+                        ///< when traced region by region
   double bilinear = 0;  ///< the same pictures as an 8-bit stack, bilinear, no noise
   double noise = 0;     ///< the same with the sensor's noise of 1.5 DN
   double binary_over_fill = 0, bilinear_over_fill = 0;
-  double noise_over_replay = 0;       ///< what noise adds to `bilinear`, over `bilinear`
-  double std_normal_over_noise = 0;   ///< per sample: std::normal_distribution over normal_deviates()
+  double noise_over_replay = 0;      ///< what noise adds to `bilinear`, over `bilinear`
+  double std_normal_over_noise = 0;  ///< per sample: std::normal_distribution over normal_deviates()
 };
 ReplayTimes time_replay(const Scene& scene, int repeats);
 
