@@ -2,6 +2,7 @@
 
 #include "sim/parallel.h"
 
+#include <algorithm>
 #include <limits>
 #include <optional>
 
@@ -28,6 +29,15 @@ CameraRays::CameraRays(const Device& camera)
       if (direction) neighbour = direction;
     }
   });
+}
+
+// Per pixel, between the neighbours on both sides along one axis; one-sided at the image's edge.
+glm::dvec2 CameraRays::slope(int x, int y, int along_x, int along_y) const {
+  const int x0 = std::max(x - along_x, 0), x1 = std::min(x + along_x, width_ - 1);
+  const int y0 = std::max(y - along_y, 0), y1 = std::min(y + along_y, height_ - 1);
+  const int steps = x1 - x0 + y1 - y0;
+  if (steps == 0) return {along_x * inverse_fx_, along_y * inverse_fy_};
+  return (table_(x1, y1) - table_(x0, y0)) / double(steps);
 }
 
 }  // namespace laterna

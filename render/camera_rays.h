@@ -24,7 +24,17 @@ class CameraRays {
     return table_(x, y);
   }
 
+  /// The same at (x, y) + offset, within half a pixel each way: exact for a pinhole, else by the slope
+  /// between the pixel's neighbours, which is off by the lens's curvature over a pixel, some 1e-5 px; NaN
+  /// where a neighbour has no direction.
+  glm::dvec2 direction(int x, int y, const glm::dvec2& offset_px) const {
+    if (pinhole_) return {(x + offset_px.x - cx_) * inverse_fx_, (y + offset_px.y - cy_) * inverse_fy_};
+    return table_(x, y) + slope(x, y, 1, 0) * offset_px.x + slope(x, y, 0, 1) * offset_px.y;
+  }
+
  private:
+  glm::dvec2 slope(int x, int y, int along_x, int along_y) const;
+
   int width_, height_;
   bool pinhole_;
   double cx_, cy_, inverse_fx_, inverse_fy_;

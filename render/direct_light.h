@@ -7,8 +7,8 @@
 
 namespace laterna {
 
-/// One row of A per camera pixel, with one entry: the projector pixel (u, v) that lights the pixel's point,
-/// and its weight. The illuminance for a picture with value p in [0, 1] at (u, v) is white_lx·p.
+/// One row of A per pixel of a SurfaceMap, with one entry: the projector pixel (u, v) that lights the pixel's
+/// point, and its weight. The illuminance for a picture with value p in [0, 1] at (u, v) is white_lx·p.
 struct LightMap {
   int width = 0, height = 0;
   PixelArray<double> u_px, v_px;  ///< projector pixel, also where the point is dark for another reason than
@@ -30,5 +30,29 @@ struct LightMap {
 /// irradiance off (weight): E = Φ·fx·fy/(1 m)² at each lit point, what a facing plane at 1 m gets.
 LightMap trace_light(const RayScene& rays, const Scene& scene, const SurfaceMap& surface,
                      const Projector& projector);
+
+/// The projector as one object sees it.
+struct ObjectLight {
+  ProjectiveLookup lookup;
+  glm::dmat3 world_from_object_linear;
+  glm::dvec3 object_relative;  ///< the object's origin, in world axes, relative to the scene's centre
+};
+
+/// A projector ready to light region by region.
+struct ProjectorView {
+  Effects effects;
+  glm::dvec3 center_relative;  ///< in world axes, relative to the scene's centre
+  double flux_per_pixel_lm;
+  double facing_at_1_m_lx;  ///< Φ·fx·fy/(1 m)²
+  std::vector<ObjectLight> objects;
+};
+ProjectorView make_projector_view(const RayScene& rays, const Scene& scene, const Projector& projector);
+
+/// A map with nothing written yet.
+LightMap make_light_map(int width, int height);
+
+/// Lights row `tile_row` of the 4×4 tiles of a surface map, of the whole image or a region of it.
+void trace_light_tiles(const RayScene& rays, const ProjectorView& light, const SurfaceMap& surface,
+                       int tile_row, LightMap& map);
 
 }  // namespace laterna

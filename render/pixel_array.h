@@ -2,30 +2,14 @@
 // memory.
 #pragma once
 
+#include "sim/uninitialised.h"
+
+#include <glm/glm.hpp>
+
 #include <cstddef>
-#include <memory>
-#include <new>
-#include <utility>
 #include <vector>
 
 namespace laterna {
-
-/// An allocator that leaves numbers uninitialised where a vector is made with a size alone.
-template <class T>
-struct UninitialisedAllocator : std::allocator<T> {
-  template <class U>
-  struct rebind {
-    using other = UninitialisedAllocator<U>;
-  };
-  template <class U, class... Arguments>
-  void construct(U* where, Arguments&&... arguments) {
-    if constexpr (sizeof...(Arguments) == 0) {
-      ::new (static_cast<void*>(where)) U;
-    } else {
-      ::new (static_cast<void*>(where)) U(std::forward<Arguments>(arguments)...);
-    }
-  }
-};
 
 /// As Image, row by row from the top; whoever makes one writes every pixel.
 template <class T>
@@ -39,6 +23,14 @@ struct PixelArray {
   std::size_t index(int x, int y) const { return std::size_t(y) * width + x; }
   T& operator()(int x, int y) { return values[index(x, y)]; }
   const T& operator()(int x, int y) const { return values[index(x, y)]; }
+};
+
+/// A rectangle of a camera's image, in pixels. `x` and `y` are multiples of 4, so that the tiles of rays that
+/// travel together are those of the whole image.
+struct PixelRegion {
+  int x = 0, y = 0, width = 0, height = 0;
+
+  std::size_t size() const { return std::size_t(width) * height; }
 };
 
 }  // namespace laterna

@@ -84,7 +84,7 @@ class ProjectiveLookup {
 /// The texel whose box holds a pixel position, floor(u + 0.5), clamped to the picture. Its index along one
 /// axis.
 inline int nearest_texel(double u, int size) {
-  return static_cast<int>(std::clamp(std::floor(u + 0.5), 0.0, double(size - 1)));
+  return static_cast<int>(std::clamp(u + 0.5, 0.0, double(size - 1)));
 }
 
 /// The two texels between whose centres a position lies along one axis, and the second one's share. Half a

@@ -1,117 +1,329 @@
 #include "render/replay.h"
 
+#include "render/replay_kernels.h"
 #include "sim/error.h"
 #include "sim/parallel.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstddef>
 
 namespace laterna {
 
 namespace {
 
-// Pixels of a row that are played together: 64, one cache line of each 8-bit picture.
-constexpr int block = noise_pixels;
-
-// A pixel's level (Exposure) is dark + gain·value, value in 0..255.
-struct Block {
-  float dark[block], gain[block];
-  int pixels;
-  std::size_t first;  // index of the first pixel
-};
+constexpr int block = block_pixels;
 
 struct Play {
-  const SurfaceMap& surface;
-  const LightMap& light;
-  const PatternStack& patterns;
-  double ambient_lx;
-  const Exposure& exposure;
+  Lookup lookup;
+  const AnyPatterns& patterns;
+  double scale;                    // levels for 1 cd/m²
+  std::vector<float> added_light;  // one per picture, for a stack that is not linear; else empty
 };
 
-void find_levels(Block& b, const Play& play) {
-  const double scale = play.exposure.level_per_cd_per_m2();
+Play make_play(Lookup lookup, const AnyPatterns& patterns, double scale) {
+  Play play{lookup, patterns, scale, {}};
+  if (!patterns.values || patterns.values->is_linear()) return play;
+  play.added_light = patterns.values->added_light;
+  play.added_light.resize(patterns.count, 0.0f);
+  return play;
+}
+
+// Up to 64 pixels of one image row, and what their playing needs. level = base + Σ gain·value, value in
+// 0..255.
+struct Block {
+  int pixels;
+  std::size_t first;           // index of the first pixel in the image
+  const std::uint32_t* begin;  // CSR offsets into entries, pixels + 1
+  const LightEntry* entries;
+  const double* ambient;
+
+  alignas(64) float base[block] = {};
+  std::uint32_t first_tap[block + 1] = {};
+  std::vector<BilinearTap> bilinear;
+  std::vector<NearestTap> nearest;
+  std::vector<TableTap> table;
+  std::vector<BitTap> bits;
+  std::vector<float> scratch, levels;  // levels[k·64 + i]
+};
+
+inline float gain_of(const LightEntry& entry, const Play& play) {
+  return static_cast<float>(play.scale / 255 * entry.weight);
+}
+
+struct Corners {
+  LinearTaps x, y;
+};
+
+Corners corners_of(const LightEntry& entry, const AnyPatterns& patterns) {
+  return {linear_taps(entry.u_px, patterns.width), linear_taps(entry.v_px, patterns.height)};
+}
+
+inline std::uint64_t nearest_code(const LightEntry& entry, const BinaryPatternStack& patterns) {
+  return patterns.code(nearest_texel(entry.u_px, patterns.width), nearest_texel(entry.v_px, patterns.height));
+}
+
+// Asks for a texel's memory ahead of its use: stacks are larger than caches.
+inline void fetch_ahead(const std::uint8_t* texel, int count) {
+  for (int k = 0; k < count + 63; k += 64) __builtin_prefetch(texel + std::min(k, count - 1));
+}
+
+void add_tap(const LightEntry& entry, const Play& play, std::vector<NearestTap>& taps) {
+  const PatternStack& p = *play.patterns.values;
+  taps.push_back({p.texel(nearest_texel(entry.u_px, p.width), nearest_texel(entry.v_px, p.height)),
+                  gain_of(entry, play)});
+  fetch_ahead(taps.back().texel, p.count);
+}
+
+void add_tap(const LightEntry& entry, const Play& play, std::vector<BilinearTap>& taps) {
+  const PatternStack& p = *play.patterns.values;
+  const auto [x, y] = corners_of(entry, play.patterns);
+  taps.push_back({p.texel(x.first, y.first), p.texel(x.second, y.first), p.texel(x.first, y.second),
+                  p.texel(x.second, y.second), float(x.share), float(y.share), gain_of(entry, play)});
+  fetch_ahead(taps.back().a, p.count);
+  fetch_ahead(taps.back().d, p.count);
+}
+
+void add_tap(const LightEntry& entry, const Play& play, std::vector<TableTap>& taps) {
+  const PatternStack& p = *play.patterns.values;
+  const auto gain = static_cast<float>(play.scale * entry.weight);
+  const auto add = [&](int x, int y, float share) {
+    taps.push_back({p.texel(x, y), p.light_of_value.data(), play.added_light.data(), gain * share});
+  };
+  if (play.lookup == Lookup::nearest) {
+    add(nearest_texel(entry.u_px, p.width), nearest_texel(entry.v_px, p.height), 1);
+    return;
+  }
+  const auto [x, y] = corners_of(entry, play.patterns);
+  const auto right = static_cast<float>(x.share), below = static_cast<float>(y.share);
+  add(x.first, y.first, (1 - right) * (1 - below));
+  add(x.second, y.first, right * (1 - below));
+  add(x.first, y.second, (1 - right) * below);
+  add(x.second, y.second, right * below);
+}
+
+void add_tap(const LightEntry& entry, const Play& play, std::vector<BitTap>& taps) {
+  const BinaryPatternStack& p = *play.patterns.bits;
+  const float gain = gain_of(entry, play) * 255.0f;
+  if (play.lookup == Lookup::nearest) {
+    taps.push_back({nearest_code(entry, p), gain});
+    return;
+  }
+  const auto [x, y] = corners_of(entry, play.patterns);
+  const auto right = static_cast<float>(x.share), below = static_cast<float>(y.share);
+  taps.push_back({p.code(x.first, y.first), gain * (1 - right) * (1 - below)});
+  taps.push_back({p.code(x.second, y.first), gain * right * (1 - below)});
+  taps.push_back({p.code(x.first, y.second), gain * (1 - right) * below});
+  taps.push_back({p.code(x.second, y.second), gain * right * below});
+}
+
+template <class Tap>
+void sum_entries(Block& b, const Play& play, std::vector<Tap>& taps) {
+  const int count = play.patterns.count;
+  taps.clear();
   for (int i = 0; i < b.pixels; ++i) {
-    const std::size_t p = b.first + i;
-    const double albedo = play.surface.albedo.values[p];
-    b.dark[i] = static_cast<float>(scale * luminance_cd_per_m2(albedo, 0, play.ambient_lx));
-    b.gain[i] =
-        static_cast<float>(scale / 255 * luminance_cd_per_m2(albedo, play.light.white_lx.values[p], 0));
+    b.base[i] = static_cast<float>(play.scale * b.ambient[i]);
+    b.first_tap[i] = std::uint32_t(taps.size());
+    for (std::uint32_t e = b.begin[i]; e < b.begin[i + 1]; ++e) add_tap(b.entries[e], play, taps);
+  }
+  b.first_tap[b.pixels] = std::uint32_t(taps.size());
+  b.scratch.resize(std::size_t(padded(count)) * block);
+  b.levels.resize(std::size_t(padded(count)) * block);
+  sum_taps(taps.data(), b.first_tap, b.base, b.pixels, count, b.scratch.data(), b.levels.data());
+}
+
+// Fills b.levels.
+void sum_block(Block& b, const Play& play) {
+  if (play.patterns.bits) return sum_entries(b, play, b.bits);
+  if (!play.added_light.empty()) return sum_entries(b, play, b.table);
+  if (play.lookup == Lookup::nearest) return sum_entries(b, play, b.nearest);
+  return sum_entries(b, play, b.bilinear);
+}
+
+// One sensor reading of a block in every picture, row by row to the planes.
+template <class Number>
+void expose_block(const Block& b, const Exposure& exposure, int count, std::vector<Number>& dn,
+                  Planes<Number> out) {
+  dn.resize(std::size_t(count) * block);
+  expose(exposure, std::uint32_t(b.first), count, b.levels.data(), dn.data());
+  for (int k = 0; k < count; ++k)
+    std::copy_n(dn.data() + std::size_t(k) * block, b.pixels, out.first + k * out.stride);
+}
+
+// Black and white through at most one entry a pixel: two levels, no sums.
+template <class Number>
+void expand_block(const Block& b, const Play& play, const Exposure& exposure, Planes<Number> out) {
+  const BinaryPatternStack& patterns = *play.patterns.bits;
+  alignas(64) std::uint64_t codes[block] = {};
+  alignas(64) float levels[2 * block] = {};
+  alignas(64) Number dn[2 * block];
+  for (int i = 0; i < b.pixels; ++i) {
+    levels[i] = levels[block + i] = static_cast<float>(play.scale * b.ambient[i]);
+    if (b.begin[i] == b.begin[i + 1]) continue;
+    const LightEntry& entry = b.entries[b.begin[i]];
+    levels[block + i] += gain_of(entry, play) * 255.0f;
+    codes[i] = nearest_code(entry, patterns);
+  }
+  expose(exposure, std::uint32_t(b.first), 2, levels, dn);
+  expand_bits(codes, dn, dn + block, b.pixels, patterns.count, out);
+}
+
+bool has_two_levels(const Block& b, const Play& play, const Exposure& exposure) {
+  if (!play.patterns.bits || play.lookup != Lookup::nearest || exposure.noise_sigma_dn > 0 ||
+      exposure.electrons)
+    return false;
+  for (int i = 0; i < b.pixels; ++i)
+    if (b.begin[i + 1] - b.begin[i] > 1) return false;
+  return true;
+}
+
+void check(const ImageRows& image) {
+  const glm::ivec2 r = image.region_px;
+  if (r.x < tile_edge || r.y < tile_edge || r.x % tile_edge != 0 || r.y % tile_edge != 0)
+    throw InputError(
+        fmt::format("replay: regions of {}x{} pixels, expected multiples of {}", r.x, r.y, tile_edge));
+}
+
+glm::ivec2 region_count(const ImageRows& image) {
+  return (image.size + image.region_px - 1) / image.region_px;
+}
+
+PixelRegion region_of(const ImageRows& image, int index) {
+  const int columns = region_count(image).x;
+  const glm::ivec2 first = glm::ivec2(index % columns, index / columns) * image.region_px;
+  const glm::ivec2 size = glm::min(image.region_px, image.size - first);
+  return {first.x, first.y, size.x, size.y};
+}
+
+// Calls work(rows) for each region of the image.
+template <class Work>
+void for_each_region(const ImageRows& image, const Work& work) {
+  check(image);
+  const glm::ivec2 regions = region_count(image);
+  parallel_for(std::size_t(regions.x) * regions.y, [&](std::size_t index) {
+    LightRows rows;
+    rows.region = region_of(image, int(index));
+    image.rows(rows);
+    work(rows);
+  });
+}
+
+// Calls play_block(b, x) for the blocks of row y of a region; x is the first pixel's place in the row.
+template <class PlayBlock>
+void for_each_block(Block& b, const LightRows& rows, int y, int image_width, const PlayBlock& play_block) {
+  for (int x = 0; x < rows.region.width; x += block) {
+    const std::size_t p = std::size_t(y) * rows.region.width + x;
+    b.pixels = std::min(block, rows.region.width - x);
+    b.first = std::size_t(rows.region.y + y) * image_width + rows.region.x + x;
+    b.begin = rows.begin.data() + p;
+    b.entries = rows.entries.data();
+    b.ambient = rows.ambient_cd_per_m2.data() + p;
+    play_block(b, x);
   }
 }
 
-// values[k·block + i]: picture k at the block's pixel i. Dark pixels have gain 0 and may hold anything.
-void fetch_nearest(const Block& b, const Play& play, std::uint8_t* values) {
-  for (int i = 0; i < b.pixels; ++i) {
-    const std::size_t p = b.first + i;
-    if (!play.light.lit(p)) continue;
-    const std::uint8_t* texel =
-        play.patterns.texel(nearest_texel(play.light.u_px.values[p], play.patterns.width),
-                            nearest_texel(play.light.v_px.values[p], play.patterns.height));
-    for (int k = 0; k < play.patterns.count; ++k) values[k * block + i] = texel[k];
+// A row of all pictures is made in the cache first and written in long runs: planes whose sizes are multiples
+// of 4096 bytes would push each other out of it.
+template <class Number>
+void play_region(const LightRows& rows, const Play& play, const Exposure& exposure, ImageStack<Number>& out) {
+  const std::size_t width = rows.region.width, plane = out.picture_size();
+  PixelArray<Number> stage(rows.region.width, play.patterns.count);
+  std::vector<Number> dn;
+  Block b;
+  for (int y = 0; y < rows.region.height; ++y) {
+    for_each_block(b, rows, y, out.width, [&](Block&, int x) {
+      const Planes<Number> planes{stage.values.data() + x, width};
+      if (has_two_levels(b, play, exposure)) return expand_block(b, play, exposure, planes);
+      sum_block(b, play);
+      expose_block(b, exposure, play.patterns.count, dn, planes);
+    });
+    Number* to = out.values.data() + std::size_t(rows.region.y + y) * out.width + rows.region.x;
+    stream_rows(reinterpret_cast<const std::byte*>(stage.values.data()), width * sizeof(Number),
+                width * sizeof(Number), play.patterns.count, reinterpret_cast<std::byte*>(to),
+                plane * sizeof(Number));
   }
 }
 
-void fetch_bilinear(const Block& b, const Play& play, float* values) {
-  const PatternStack& patterns = play.patterns;
-  for (int i = 0; i < b.pixels; ++i) {
-    const std::size_t p = b.first + i;
-    if (!play.light.lit(p)) continue;
-    const LinearTaps x = linear_taps(play.light.u_px.values[p], patterns.width);
-    const LinearTaps y = linear_taps(play.light.v_px.values[p], patterns.height);
-    const std::uint8_t *a = patterns.texel(x.first, y.first), *c = patterns.texel(x.second, y.first),
-                       *d = patterns.texel(x.first, y.second), *e = patterns.texel(x.second, y.second);
-    const auto right = static_cast<float>(x.share), below = static_cast<float>(y.share);
-    for (int k = 0; k < patterns.count; ++k) {
-      const float upper = a[k] + right * float(c[k] - a[k]), lower = d[k] + right * float(e[k] - d[k]);
-      values[k * block + i] = upper + below * (lower - upper);
+CapturedStack make_stack(const glm::ivec2& size, int count, const Exposure& exposure) {
+  if (exposure.bit_depth == 8) return ImageStack<std::uint8_t>(size.x, size.y, count);
+  return ImageStack<std::uint16_t>(size.x, size.y, count);
+}
+
+void scatter(const LightRows& rows, Lookup lookup, const Image<float>& camera_image, Image<double>& sum) {
+  for (std::size_t p = 0; p < rows.region.size(); ++p) {
+    const int x = rows.region.x + int(p) % rows.region.width, y = rows.region.y + int(p) / rows.region.width;
+    for (std::uint32_t e = rows.begin[p]; e < rows.begin[p + 1]; ++e) {
+      const LightEntry& entry = rows.entries[e];
+      const double value = entry.weight * camera_image(x, y);
+      if (lookup == Lookup::nearest) {
+        sum(nearest_texel(entry.u_px, sum.width), nearest_texel(entry.v_px, sum.height)) += value;
+        continue;
+      }
+      const LinearTaps u = linear_taps(entry.u_px, sum.width), v = linear_taps(entry.v_px, sum.height);
+      sum(u.first, v.first) += value * (1 - u.share) * (1 - v.share);
+      sum(u.second, v.first) += value * u.share * (1 - v.share);
+      sum(u.first, v.second) += value * (1 - u.share) * v.share;
+      sum(u.second, v.second) += value * u.share * v.share;
     }
   }
 }
 
-template <class Value, class Number>
-void expose_values(const Block& b, const Play& play, const Value* values, std::vector<float>& levels,
-                   std::vector<Number>& dn, ImageStack<Number>& out) {
-  const int count = play.patterns.count;
-  for (int k = 0; k < count; ++k) {
-    for (int i = 0; i < block; ++i)
-      levels[k * block + i] = b.dark[i] + b.gain[i] * float(values[k * block + i]);
-  }
-  expose(play.exposure, std::uint32_t(b.first), count, levels.data(), dn.data());
-  for (int k = 0; k < count; ++k)
-    std::copy_n(dn.data() + k * block, b.pixels, out.picture(k).data() + b.first);
-}
+}  // namespace
 
-template <class Value, class Number, class Fetch>
-ImageStack<Number> play_stack(const Play& play, const Fetch& fetch) {
-  ImageStack<Number> out(play.surface.width, play.surface.height, play.patterns.count);
-  parallel_for(out.height, [&](std::size_t y) {
-    Block b{};
-    const std::size_t held = std::size_t(play.patterns.count) * block;
-    std::vector<Value> values(held);
-    std::vector<float> levels(held);
-    std::vector<Number> dn(held);
-    for (int x = 0; x < out.width; x += block) {
-      b.first = y * out.width + x;
-      b.pixels = std::min(block, out.width - x);
-      find_levels(b, play);
-      fetch(b, play, values.data());
-      expose_values(b, play, values.data(), levels, dn, out);
+ImageStack<float> play_luminance(const ImageRows& image, Lookup lookup, const AnyPatterns& patterns) {
+  const Play play = make_play(lookup, patterns, 1);
+  ImageStack<float> out(image.size.x, image.size.y, patterns.count);
+  for_each_region(image, [&](const LightRows& rows) {
+    Block b;
+    for (int y = 0; y < rows.region.height; ++y) {
+      for_each_block(b, rows, y, image.size.x, [&](Block&, int) {
+        sum_block(b, play);
+        for (int k = 0; k < patterns.count; ++k)
+          std::copy_n(b.levels.data() + std::size_t(k) * block, b.pixels, out.picture(k).data() + b.first);
+      });
     }
   });
   return out;
 }
 
-template <class Number>
-ImageStack<Number> play_lookup(const Play& play, Lookup lookup) {
-  if (lookup == Lookup::nearest) return play_stack<std::uint8_t, Number>(play, fetch_nearest);
-  return play_stack<float, Number>(play, fetch_bilinear);
+void play_rows(const LightRows& rows, Lookup lookup, const AnyPatterns& patterns, const Exposure& exposure,
+               CapturedStack& out) {
+  const Play play = make_play(lookup, patterns, exposure.level_per_cd_per_m2());
+  std::visit([&](auto& stack) { play_region(rows, play, exposure, stack); }, out);
 }
 
-}  // namespace
+void play_stack(const ImageRows& image, Lookup lookup, const AnyPatterns& patterns, const Exposure& exposure,
+                CapturedStack& out) {
+  for_each_region(image, [&](const LightRows& rows) { play_rows(rows, lookup, patterns, exposure, out); });
+}
+
+CapturedStack play_stack(const ImageRows& image, Lookup lookup, const AnyPatterns& patterns,
+                         const Exposure& exposure) {
+  CapturedStack out = make_stack(image.size, patterns.count, exposure);
+  play_stack(image, lookup, patterns, exposure, out);
+  return out;
+}
+
+Image<double> apply_transpose(const ImageRows& image, Lookup lookup, const Image<float>& camera_image,
+                              glm::ivec2 projector_size) {
+  constexpr int batch = 64;  // regions traced at once; added one after the other, for the same bits
+  check(image);
+  Image<double> sum(projector_size.x, projector_size.y);
+  const int count = region_count(image).x * region_count(image).y;
+  for (int first = 0; first < count; first += batch) {
+    std::vector<LightRows> rows(std::min(batch, count - first));
+    parallel_for(rows.size(), [&](std::size_t i) {
+      rows[i].region = region_of(image, first + int(i));
+      image.rows(rows[i]);
+    });
+    for (const LightRows& r : rows) scatter(r, lookup, camera_image, sum);
+  }
+  return sum;
+}
 
 CapturedStack capture_stack(const SurfaceMap& surface, const LightMap& light, const Projector& projector,
-                            const PatternStack& patterns, double ambient_lx, const Exposure& exposure) {
+                            const AnyPatterns& patterns, double ambient_lx, const Exposure& exposure) {
   const glm::ivec2 size = projector.device.intrinsics.size;
   if (patterns.width != size.x || patterns.height != size.y) {
     throw InputError(fmt::format("{}: patterns of {}x{} pixels, expected the projector's {}x{}",
@@ -122,9 +334,9 @@ CapturedStack capture_stack(const SurfaceMap& surface, const LightMap& light, co
                                  projector.device.name, light.width, light.height, surface.width,
                                  surface.height));
   }
-  const Play play{surface, light, patterns, ambient_lx, exposure};
-  if (exposure.bit_depth == 8) return play_lookup<std::uint8_t>(play, projector.lookup);
-  return play_lookup<std::uint16_t>(play, projector.lookup);
+  const ImageRows image{{surface.width, surface.height},
+                        [&](LightRows& rows) { direct_rows(surface, light, ambient_lx, rows); }};
+  return play_stack(image, projector.lookup, patterns, exposure);
 }
 
 }  // namespace laterna

@@ -13,40 +13,6 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-// The camera as one object sees it. x_object = center_object + camera + depth·(object_from_device·direction).
-struct ObjectView {
-  glm::dmat3 object_from_device;
-  glm::dvec3 camera_from_center, camera_object;
-  float albedo, back_albedo;
-  const Object* textured;  // null without an albedo map
-};
-
-struct View {
-  glm::dvec3 camera_relative;  // in world axes, relative to the scene's centre
-  glm::dmat3 world_from_device;
-  std::vector<ObjectView> objects;
-};
-
-View make_view(const RayScene& rays, const Scene& scene, const Device& camera) {
-  const Rigid world_from_device = inverse(camera.device_from_world);
-  const glm::dvec3 camera_world = world_from_device.translation;
-  View view{camera_world - rays.center_world(), world_from_device.rotation, {}};
-  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
-    const Object& object = scene.objects[i];
-    const ObjectPlanes& planes = rays.objects()[i];
-    const glm::dvec3 camera_object =
-        planes.object_from_world_linear * (camera_world - glm::dvec3(object.world_from_object[3]));
-    const bool textured = object.albedo_map && !object.mesh.texture_coordinates.empty();
-    view.objects.push_back({planes.object_from_world_linear * view.world_from_device,
-                            camera_object - planes.center_object, camera_object, float(object.albedo),
-                            scene.effects.back_face ? 0 : float(object.albedo),
-                            textured ? &object : nullptr});
-  }
-  return view;
-}
-
-SurfaceMap make_map(int w, int h) { return {w, h, {w, h}, {w, h}, {w, h}, {w, h}, {w, h}, {w, h}}; }
-
 // One tile of a camera's image while it is traced.
 struct Tile {
   RayPacket rays;
@@ -55,11 +21,14 @@ struct Tile {
   int count_x, count_y;               // pixels inside the image
 };
 
-void aim(Tile& tile, const View& view, const CameraRays& directions, int x0, int y0) {
+// `offsets_px`: null, or that of the tile's first pixel, in rows of `stride`.
+void aim(Tile& tile, const CameraView& view, const CameraRays& directions, const glm::ivec2& first_px,
+         const glm::vec2* offsets_px, int stride) {
   for (int lane = 0; lane < packet_size; ++lane) {
-    const int i = lane % tile_edge, j = lane / tile_edge;
-    const bool inside = i < tile.count_x && j < tile.count_y;
-    const glm::dvec2 d = inside ? directions.direction(x0 + i, y0 + j) : glm::dvec2(nan);
+    const int i = lane % tile_edge, j = lane / tile_edge, x = first_px.x + i, y = first_px.y + j;
+    glm::dvec2 d(nan);
+    if (i < tile.count_x && j < tile.count_y)
+      d = offsets_px ? directions.direction(x, y, offsets_px[j * stride + i]) : directions.direction(x, y);
     const glm::dmat3& m = view.world_from_device;
     tile.direction[lane] = d;
     tile.rays.valid[lane] = d.x == d.x ? -1 : 0;
@@ -94,7 +63,8 @@ void apply_albedo_map(SurfaceMap& map, std::size_t p, const Object& object, std:
   map.albedo.values[p] *= static_cast<float>(albedo_map_value(*object.albedo_map, st));
 }
 
-void write_tile(SurfaceMap& map, const Tile& tile, const View& view, const RayScene& scene, int x0, int y0) {
+void write_tile(SurfaceMap& map, const Tile& tile, const CameraView& view, const RayScene& scene, int x0,
+                int y0) {
   for (int j = 0; j < tile.count_y; ++j) {
     for (int i = 0; i < tile.count_x; ++i) {
       const int lane = j * tile_edge + i;
@@ -115,25 +85,53 @@ void write_tile(SurfaceMap& map, const Tile& tile, const View& view, const RaySc
 
 }  // namespace
 
+CameraView make_camera_view(const RayScene& rays, const Scene& scene, const Camera& camera) {
+  const Rigid world_from_device = inverse(camera.device.device_from_world);
+  const glm::dvec3 camera_world = world_from_device.translation;
+  CameraView view{camera_world - rays.center_world(), world_from_device.rotation, {}};
+  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+    const Object& object = scene.objects[i];
+    const ObjectPlanes& planes = rays.objects()[i];
+    const glm::dvec3 camera_object =
+        planes.object_from_world_linear * (camera_world - glm::dvec3(object.world_from_object[3]));
+    const bool textured = object.albedo_map && !object.mesh.texture_coordinates.empty();
+    view.objects.push_back({planes.object_from_world_linear * view.world_from_device,
+                            camera_object - planes.center_object, camera_object, float(object.albedo),
+                            scene.effects.back_face ? 0 : float(object.albedo),
+                            textured ? &object : nullptr});
+  }
+  return view;
+}
+
+SurfaceMap make_surface_map(const PixelRegion& region) {
+  const int w = region.width, h = region.height;
+  return {w, h, {w, h}, {w, h}, {w, h}, {w, h}, {w, h}, {w, h}, {region.x, region.y}};
+}
+
+void trace_surface_tiles(const RayScene& rays, const CameraView& view, const CameraRays& directions,
+                         int tile_row, SurfaceMap& map, const glm::vec2* offsets_px) {
+  const int y0 = tile_row * tile_edge;
+  Tile tile;
+  std::fill_n(tile.rays.origin_x, packet_size, static_cast<float>(view.camera_relative.x));
+  std::fill_n(tile.rays.origin_y, packet_size, static_cast<float>(view.camera_relative.y));
+  std::fill_n(tile.rays.origin_z, packet_size, static_cast<float>(view.camera_relative.z));
+  std::fill_n(tile.rays.end, packet_size, std::numeric_limits<float>::infinity());
+  tile.count_y = std::min(tile_edge, map.height - y0);
+  for (int x0 = 0; x0 < map.width; x0 += tile_edge) {
+    tile.count_x = std::min(tile_edge, map.width - x0);
+    const glm::vec2* offsets = offsets_px ? offsets_px + map.object.index(x0, y0) : nullptr;
+    aim(tile, view, directions, map.first_px + glm::ivec2(x0, y0), offsets, map.width);
+    rays.first_hits(tile.rays, tile.hits);
+    write_tile(map, tile, view, rays, x0, y0);
+  }
+}
+
 SurfaceMap trace_surface(const RayScene& rays, const Scene& scene, const Camera& camera,
                          const CameraRays& directions) {
-  const View view = make_view(rays, scene, camera.device);
-  SurfaceMap map = make_map(directions.width(), directions.height());
-  parallel_for((map.height + tile_edge - 1) / tile_edge, [&](std::size_t row) {
-    const int y0 = static_cast<int>(row) * tile_edge;
-    Tile tile;
-    std::fill_n(tile.rays.origin_x, packet_size, static_cast<float>(view.camera_relative.x));
-    std::fill_n(tile.rays.origin_y, packet_size, static_cast<float>(view.camera_relative.y));
-    std::fill_n(tile.rays.origin_z, packet_size, static_cast<float>(view.camera_relative.z));
-    std::fill_n(tile.rays.end, packet_size, std::numeric_limits<float>::infinity());
-    tile.count_y = std::min(tile_edge, map.height - y0);
-    for (int x0 = 0; x0 < map.width; x0 += tile_edge) {
-      tile.count_x = std::min(tile_edge, map.width - x0);
-      aim(tile, view, directions, x0, y0);
-      rays.first_hits(tile.rays, tile.hits);
-      write_tile(map, tile, view, rays, x0, y0);
-    }
-  });
+  const CameraView view = make_camera_view(rays, scene, camera);
+  SurfaceMap map = make_surface_map({0, 0, directions.width(), directions.height()});
+  parallel_for((map.height + tile_edge - 1) / tile_edge,
+               [&](std::size_t row) { trace_surface_tiles(rays, view, directions, int(row), map); });
   return map;
 }
 

@@ -53,4 +53,9 @@ inline constexpr std::array<EffectSwitch, 17> all_effects{{
     {"black_level", "pattern", "Needs `black_level` of a [[projector]].", &Effects::black_level},
 }};
 
+/// Whether the panel shows anything but the pattern sequence as it stands.
+inline bool edits_patterns(const Effects& e) {
+  return e.veiling_glare || e.scaler || e.slide || e.response || e.black_level;
+}
+
 }  // namespace laterna

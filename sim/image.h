@@ -1,6 +1,8 @@
 // Pictures in memory: planar, row by row from the top, integer coordinates at pixel centres.
 #pragma once
 
+#include "sim/uninitialised.h"
+
 #include <glm/glm.hpp>
 
 #include <cstddef>
@@ -24,12 +26,13 @@ struct Image {
   const T& operator()(int x, int y) const { return values[std::size_t(y) * width + x]; }
 };
 
-/// A stack of equally large one-channel pictures, one after the other in memory.
+/// A stack of equally large one-channel pictures, one after the other in memory; whoever makes one writes
+/// every pixel.
 template <class T>
 struct ImageStack {
   using value_type = T;
   int width = 0, height = 0, count = 0;
-  std::vector<T> values;
+  std::vector<T, UninitialisedAllocator<T>> values;
 
   ImageStack() = default;
   ImageStack(int width_px, int height_px, int pictures)

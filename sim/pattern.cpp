@@ -96,4 +96,22 @@ PatternStack make_pattern_stack(const GraySequence& sequence) {
   return stack;
 }
 
+BinaryPatternStack make_binary_pattern_stack(const GraySequence& sequence) {
+  validate(sequence);
+  const glm::ivec2 size = sequence.projector_size;
+  BinaryPatternStack stack{size.x, size.y, picture_count(sequence), {}, {}};
+  stack.column_codes.resize(size.x);
+  stack.row_codes.resize(size.y);
+  for (int k = 0; k < stack.count; ++k) {
+    const GrayPicture picture = gray_picture(sequence, k);
+    const std::uint64_t bit = std::uint64_t{1} << k;
+    if (picture.kind == Kind::row) {
+      for (int y = 0; y < size.y; ++y) stack.row_codes[y] |= is_lit(picture, 0, y) ? bit : 0;
+    } else {
+      for (int x = 0; x < size.x; ++x) stack.column_codes[x] |= is_lit(picture, x, 0) ? bit : 0;
+    }
+  }
+  return stack;
+}
+
 }  // namespace laterna

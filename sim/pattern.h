@@ -89,4 +89,16 @@ struct PatternStack {
 /// The whole sequence, 0 or 255 per value: equal to pattern_picture for each k.
 PatternStack make_pattern_stack(const GraySequence& sequence);
 
+/// Up to 64 pictures of black and white that are unions of columns and rows, as those of a Gray sequence are:
+/// bit k of `code(x, y)` says whether picture k is lit at (x, y).
+struct BinaryPatternStack {
+  int width = 0, height = 0, count = 0;
+  std::vector<std::uint64_t> column_codes, row_codes;  ///< one per column; one per row
+
+  std::uint64_t code(int x, int y) const { return column_codes[x] | row_codes[y]; }
+};
+
+/// The whole sequence as bits: equal to gray_bit for each k. (16384×16384 pixels need 58.)
+BinaryPatternStack make_binary_pattern_stack(const GraySequence& sequence);
+
 }  // namespace laterna

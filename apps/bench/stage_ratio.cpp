@@ -1,6 +1,7 @@
 #include "apps/bench/stage_ratio.h"
 
-#include "render/replay.h"
+#include "apps/bench/timing.h"
+#include "render/direct_light.h"
 #include "sim/parallel.h"
 #include "sim/shapes.h"
 
@@ -9,7 +10,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -17,18 +17,6 @@
 namespace laterna {
 
 namespace {
-
-template <class Action>
-double seconds(const Action& action) {
-  const auto start = std::chrono::steady_clock::now();
-  action();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-double median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + std::ptrdiff_t(values.size() / 2), values.end());
-  return values[values.size() / 2];
-}
 
 // The rays of the visibility stage, made once: directions of camera rays, and whole shadow rays, tile by
 // tile.
@@ -183,7 +171,7 @@ Scene bench_scene(int triangles) {
   camera.device.device_from_world = device_from_world_looking_at({0.4, 0.1, 2}, {0, 0, 0}, {0, 1, 0});
   Projector projector;
   projector.device.name = "projector";
-  projector.device.intrinsics = intrinsics_from_throw({1920, 1080}, 1.2, {0, 0});
+  projector.device.intrinsics = intrinsics_from_throw({1280, 800}, 1.2, {0, 0});
   projector.device.device_from_world = device_from_world_looking_at({-0.4, 0, 2}, {0, 0, 0}, {0, 1, 0});
   Scene scene;
   scene.objects = {relief_object};
@@ -211,36 +199,6 @@ VisibilityTimes visibility_over_embree(const Scene& scene, const BareWay& way, i
   static_cast<void>(sink);
   return {median(visibility_s), median(surface_s), median(light_s),
           median(bare_s),       ready.count,       median(ratio)};
-}
-
-CaptureTimes time_capture(const Scene& source, bool bilinear, double noise_sigma_dn, int repeats) {
-  Scene scene = source;
-  scene.projectors[0].lookup = bilinear ? Lookup::bilinear : Lookup::nearest;
-  scene.cameras[0].sensor.noise_sigma_dn = noise_sigma_dn;
-  const Camera& camera = scene.cameras[0];
-  const Projector& projector = scene.projectors[0];
-  const PatternStack patterns = make_pattern_stack({projector.device.intrinsics.size});
-  std::vector<double> build_s, rays_s, surface_s, light_s, replay_s;
-  for (int i = -1; i < repeats; ++i) {
-    std::unique_ptr<RayScene> rays;
-    std::unique_ptr<CameraRays> directions;
-    SurfaceMap surface;
-    LightMap light;
-    CapturedStack stack;
-    const double a = seconds([&] { rays = std::make_unique<RayScene>(scene); });
-    const double b = seconds([&] { directions = std::make_unique<CameraRays>(camera.device); });
-    const double c = seconds([&] { surface = trace_surface(*rays, scene, camera, *directions); });
-    const double d = seconds([&] { light = trace_light(*rays, scene, surface, projector); });
-    const double saturation = automatic_saturation_cd_per_m2(surface, {&light, 1}, 0);
-    const Exposure exposure = make_exposure(camera.sensor, saturation, {});
-    const double e =
-        seconds([&] { stack = capture_stack(surface, light, projector, patterns, 0, exposure); });
-    if (i < 0) continue;
-    build_s.push_back(a), rays_s.push_back(b), surface_s.push_back(c), light_s.push_back(d),
-        replay_s.push_back(e);
-  }
-  return {median(build_s), median(rays_s),   median(surface_s),
-          median(light_s), median(replay_s), patterns.count};
 }
 
 }  // namespace laterna

@@ -8,7 +8,7 @@
 namespace laterna {
 
 /// The scene that the figures are made on: a relief of about `triangles` triangles, a 1280×800 camera and a
-/// 1920×1080 projector that both look at it.
+/// 1280×800 projector that both look at it.
 Scene bench_scene(int triangles);
 
 /// Embree's way of taking rays.
@@ -31,13 +31,5 @@ struct VisibilityTimes {
 
 /// Times both in turn, in the same run, with the threads that are set.
 VisibilityTimes visibility_over_embree(const Scene& scene, const BareWay& way, int repeats);
-
-/// Seconds for each stage of a capture, medians over `repeats`; `bilinear` and `noise_sigma_dn` choose the
-/// replay's kind.
-struct CaptureTimes {
-  double build = 0, rays = 0, surface = 0, light = 0, replay = 0;
-  int pictures = 0;
-};
-CaptureTimes time_capture(const Scene& scene, bool bilinear, double noise_sigma_dn, int repeats);
 
 }  // namespace laterna

@@ -65,11 +65,17 @@ CapturedStack capture_view(const Scene& scene, const Traced& traced, const View&
   const Exposure exposure = make_exposure(
       scene.cameras[view.camera].sensor, view.saturation_cd_per_m2,
       {seed, static_cast<std::uint32_t>(view.camera), static_cast<std::uint32_t>(view.projector)});
-  const PatternStack patterns = times.measure("patterns", [&] { return make_patterns(scene, projector); });
-  return times.measure("capture", [&] {
-    return capture_stack(traced.surfaces[view.camera], view.light, projector, patterns, scene.ambient_lx,
-                         exposure);
-  });
+  const auto play = [&](const AnyPatterns& patterns) {
+    return times.measure("capture", [&] {
+      return capture_stack(traced.surfaces[view.camera], view.light, projector, patterns, scene.ambient_lx,
+                           exposure);
+    });
+  };
+  if (projector.lookup == Lookup::nearest && !edits_patterns(scene.effects)) {
+    const GraySequence sequence{projector.device.intrinsics.size};
+    return play(times.measure("patterns", [&] { return make_binary_pattern_stack(sequence); }));
+  }
+  return play(times.measure("patterns", [&] { return make_patterns(scene, projector); }));
 }
 
 Overlap overlap(const Scene& scene, const Traced& traced, const View& view) {

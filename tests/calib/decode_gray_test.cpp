@@ -137,7 +137,9 @@ TEST(DecodeGray, NoiseIsMeasured) {
     EXPECT_NEAR(picture_noise_dn(faded_and_noisy({256, 128}, sigma, random), 10), std::hypot(sigma, 0.29),
                 0.1 * sigma + 0.05);
   }
-  EXPECT_EQ(picture_noise_dn(ImageStack<std::uint8_t>(4, 4, 6), 10), 0);
+  ImageStack<std::uint8_t> black(4, 4, 6);
+  std::fill(black.values.begin(), black.values.end(), std::uint8_t{0});
+  EXPECT_EQ(picture_noise_dn(black, 10), 0);
 }
 
 TEST(DecodeGray, SixteenBitsDecodeAsEight) {

@@ -5,7 +5,10 @@
 #include "tests/render/rig.h"
 #include "tests/testing.h"
 
+#include <algorithm>
 #include <numbers>
+#include <random>
+#include <tuple>
 
 namespace laterna {
 namespace {
@@ -233,6 +236,110 @@ TEST(CaptureStack, NoiseHasItsSigmaAndTheSameBitsForAnyThreads) {
   EXPECT_NE(play({5, 1, 0}).values, one.values);
   EXPECT_NE(std::vector(one.picture(0).begin(), one.picture(0).end()),
             std::vector(one.picture(4).begin(), one.picture(4).end()));
+}
+
+struct Sampled {
+  Scene scene;
+  RayScene rays;
+  CameraRays directions;
+
+  Sampled()
+      : scene(scene_of({object_of(relief(2, 2, 0.3, 40, 40))},
+                       device_at({0.3, 0, 3}, {0, 0, 0}, {130, 90}, 150),
+                       device_at({-0.3, 0, 3}, {0, 0, 0}, {60, 40}, 60))),
+        rays(scene),
+        directions(scene.cameras[0].device) {}
+  ImageRows image(int samples, glm::ivec2 region_px = {256, 4}) const {
+    return {{130, 90}, trace_rows(rays, scene, 0, directions, 0, {samples, 9}), region_px};
+  }
+};
+
+TEST(PlayLuminance, IsLinearInThePattern) {
+  const Sampled sampled;
+  PatternStack p = random_pattern({60, 40}, 21), q = random_pattern({60, 40}, 21), sum = p;
+  std::reverse(q.values.begin(), q.values.end());
+  for (auto& value : p.values) value /= 4;
+  for (auto& value : q.values) value /= 2;
+  for (std::size_t i = 0; i < sum.values.size(); ++i)
+    sum.values[i] = std::uint8_t(2 * p.values[i] + q.values[i]);
+  for (const Lookup lookup : {Lookup::nearest, Lookup::bilinear}) {
+    const auto a = play_luminance(sampled.image(5), lookup, p),
+               b = play_luminance(sampled.image(5), lookup, q),
+               c = play_luminance(sampled.image(5), lookup, sum);
+    const float most = *std::max_element(c.values.begin(), c.values.end());
+    EXPECT_GT(most, 1);
+    for (std::size_t i = 0; i < c.values.size(); ++i)
+      ASSERT_NEAR(2 * a.values[i] + b.values[i], c.values[i], 1e-6 * most);  // about ten roundings of 2⁻²⁴
+  }
+}
+
+TEST(ApplyTranspose, AgreesInInnerProducts) {
+  const Sampled sampled;
+  const PatternStack p = random_pattern({60, 40}, 1);
+  auto random = testing::generator();
+  Image<float> y(130, 90);
+  for (float& value : y.values) value = std::uniform_real_distribution<float>(0, 1)(random);
+  for (const Lookup lookup : {Lookup::nearest, Lookup::bilinear}) {
+    const auto picture = play_luminance(sampled.image(3), lookup, p);
+    const Image<double> back = apply_transpose(sampled.image(3), lookup, y, {60, 40});
+    double forward = 0, backward = 0;
+    for (std::size_t i = 0; i < y.values.size(); ++i) forward += double(y.values[i]) * picture.values[i];
+    for (std::size_t i = 0; i < back.values.size(); ++i) backward += back.values[i] * p.values[i] / 255;
+    EXPECT_GT(forward, 100);
+    EXPECT_NEAR(backward / forward, 1, 1e-6);  // pictures are in single precision
+  }
+}
+
+TEST(PlayStack, HasTheSameBitsForAnyThreadsAndRegions) {
+  const Sampled sampled;
+  const PatternStack values = random_pattern({60, 40}, 11);
+  const BinaryPatternStack bits = make_binary_pattern_stack({{60, 40}});
+  const Image<float> ones(130, 90, 1);
+  const Exposure exposure{12, 60, 3, {1, 0, 0}};
+  const auto play = [&](glm::ivec2 region_px) {
+    const ImageRows image = sampled.image(3, region_px);
+    return std::tuple(play_stack(image, Lookup::bilinear, values, exposure),
+                      play_stack(image, Lookup::nearest, bits, exposure),
+                      apply_transpose(sampled.image(3), Lookup::bilinear, ones, {60, 40}).values);
+  };
+  const auto same = [](const CapturedStack& a, const CapturedStack& b) {
+    return std::get<ImageStack<std::uint16_t>>(a).values == std::get<ImageStack<std::uint16_t>>(b).values;
+  };
+  set_thread_count(1);
+  const auto one = play({256, 4});
+  for (const int threads : {2, 7}) {
+    for (const glm::ivec2 region_px : {glm::ivec2(256, 4), glm::ivec2(12, 8), glm::ivec2(64, 92)}) {
+      set_thread_count(threads);
+      const auto other = play(region_px);
+      EXPECT_TRUE(same(std::get<0>(one), std::get<0>(other)));
+      EXPECT_TRUE(same(std::get<1>(one), std::get<1>(other)));
+      EXPECT_EQ(std::get<2>(one), std::get<2>(other));
+    }
+  }
+  set_thread_count(0);
+}
+
+TEST(PlayStack, BitsAndBytesOfOneSequenceGiveOnePicture) {
+  const Sampled sampled;
+  const GraySequence sequence{{60, 40}};
+  const PatternStack bytes = make_pattern_stack(sequence);
+  const BinaryPatternStack bits = make_binary_pattern_stack(sequence);
+  for (const int bit_depth : {8, 12}) {
+    for (const int samples : {1, 4}) {
+      for (const double noise : {0.0, 2.0}) {
+        const Exposure exposure{bit_depth, 60, noise, {1, 0, 0}};
+        const ImageRows image = sampled.image(samples);
+        EXPECT_EQ(std::visit([](const auto& s) { return std::vector<int>(s.values.begin(), s.values.end()); },
+                             play_stack(image, Lookup::nearest, bits, exposure)),
+                  std::visit([](const auto& s) { return std::vector<int>(s.values.begin(), s.values.end()); },
+                             play_stack(image, Lookup::nearest, bytes, exposure)));
+      }
+    }
+  }
+  const auto a = play_luminance(sampled.image(2), Lookup::bilinear, bits),
+             b = play_luminance(sampled.image(2), Lookup::bilinear, bytes);
+  for (std::size_t i = 0; i < a.values.size(); ++i)
+    ASSERT_NEAR(a.values[i], b.values[i], 1e-6 * 60);  // rounded in another order
 }
 
 TEST(CaptureStack, PatternsMustHaveTheProjectorsSize) {

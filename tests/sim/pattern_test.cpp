@@ -83,6 +83,19 @@ TEST(PatternStack, HoldsEveryPictureTexelByTexel) {
   }
 }
 
+TEST(BinaryPatternStack, HoldsEveryBit) {
+  for (const glm::ivec2 size : {glm::ivec2(37, 21), glm::ivec2(1, 5), glm::ivec2(64, 1), glm::ivec2(1, 1)}) {
+    const GraySequence sequence{size};
+    const BinaryPatternStack stack = make_binary_pattern_stack(sequence);
+    ASSERT_EQ(stack.count, picture_count(sequence));
+    for (int y = 0; y < size.y; ++y)
+      for (int x = 0; x < size.x; ++x)
+        for (int k = 0; k < stack.count; ++k)
+          ASSERT_EQ((stack.code(x, y) >> k) & 1u, std::uint64_t(gray_bit(sequence, k, x, y)));
+  }
+  EXPECT_EQ(make_binary_pattern_stack({{16384, 16384}}).count, 58);
+}
+
 TEST(GraySequence, RefusesAbsurdSizesAndPictures) {
   EXPECT_THAT(input_error([] {
                 validate(GraySequence{{0, 5}});

@@ -1,0 +1,82 @@
+// laterna-bench: what the hot stages cost, beside what the machine can do, measured in one run.
+#include "apps/bench/replay_ratio.h"
+#include "apps/bench/stage_ratio.h"
+#include "sim/parallel.h"
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include <string>
+
+using namespace laterna;
+
+namespace {
+
+struct Options {
+  bool json = false;
+  int repeats = 9, threads = 2, triangles = 100000;
+};
+
+// The instruction set that the clones of the hot loops run on.
+std::string isa() {
+#if defined(__x86_64__)
+  if (__builtin_cpu_supports("avx512f")) return "avx512f";
+  if (__builtin_cpu_supports("avx2")) return "avx2";
+  return "sse2";
+#elif defined(__aarch64__)
+  return "neon";
+#else
+  return "unknown";
+#endif
+}
+
+// The bare calls that are fastest here are the measure.
+VisibilityTimes against_the_best(const Scene& scene, int repeats) {
+  const VisibilityTimes wide = visibility_over_embree(scene, {16, true, false}, repeats);
+  const VisibilityTimes narrow = visibility_over_embree(scene, {8, true, false}, repeats);
+  return wide.bare < narrow.bare ? wide : narrow;
+}
+
+nlohmann::ordered_json measure(const Options& options) {
+  set_thread_count(options.threads);
+  const Scene scene = bench_scene(options.triangles);
+  const VisibilityTimes visibility = against_the_best(scene, options.repeats);
+  const ReplayTimes replay = time_replay(scene, options.repeats);
+  const StackTimes stack = time_stack(scene, std::max(1, options.repeats / 3));
+  return {{"visibility_over_embree", visibility.ratio},
+          {"replay_bilinear_over_fill", replay.bilinear_over_fill},
+          {"replay_binary_over_fill", replay.binary_over_fill},
+          {"std_normal_over_noise", replay.std_normal_over_noise},
+          {"noise_over_replay", replay.noise_over_replay},
+          {"spp16_over_spp1", stack.ratio},
+          {"stack44_seconds", stack.one},
+          {"stack44_spp16_seconds", stack.sixteen},
+          {"roundtrip_seconds", time_roundtrip(scene, std::max(1, options.repeats / 3))},
+          {"threads", thread_count()},
+          {"isa", isa()},
+          {"fill_seconds", replay.fill},
+          {"visibility_seconds", visibility.visibility}};
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Measures the hot stages on 44 Gray patterns, 1280x800 projector and camera, in memory.");
+  Options options;
+  app.add_flag("--json", options.json, "print one JSON object");
+  app.add_option("--repeats", options.repeats, "how often each is measured; medians are printed")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  app.add_option("--threads", options.threads)->check(CLI::Range(1, 1024))->capture_default_str();
+  app.add_option("--triangles", options.triangles)->check(CLI::Range(2, 10000000))->capture_default_str();
+  CLI11_PARSE(app, argc, argv);
+  const nlohmann::ordered_json result = measure(options);
+  if (options.json) {
+    fmt::print("{}\n", result.dump());
+    return 0;
+  }
+  for (const auto& [name, value] : result.items())
+    fmt::print("{:28}{}\n", name,
+               value.is_number_float() ? fmt::format("{:.4g}", value.get<double>()) : value.dump());
+}
