@@ -116,7 +116,7 @@ BestRefinement best_refinement(const Correspondences& correspondences, const Poi
         subset(correspondences, evenly_spread(correspondences.world_points.size(), enough_points));
     BestRefinement best =
         best_refinement(few, point_table(few, normalisation), normalisation, size, lens, geometry, options);
-    if (!best.refinement) return best;
+    if (!best.refinement || !best.refinement->converged) return best;
     best.refinement = refine(points, lens, best.refinement->state,
                              {options.loss, options.max_iterations, double(std::max(size.x, size.y))});
     if (!best.refinement) best.refusal = "some points lie behind the projector that fits the others";

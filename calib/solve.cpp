@@ -155,10 +155,14 @@ SolveResult solve(const Correspondences& c, glm::ivec2 size, const SolveOptions&
   result.scaled_singular_values = spectrum.singular_values;
   result.smallest_gap = spectrum.singular_values.back() / spectrum.singular_values.front();
   result.weakest_direction = direction_in_words(spectrum.weakest, result.parameter_names);
-  if (!fit.converged)
+  if (!fit.converged) {
+    const bool flat = result.relief_over_throw < 1e-3;
     return refused(result,
-                   fmt::format("the solver did not converge ({}): {} (relief {:.2g} % of the throw)",
-                               fit.termination, result.weakest_direction, 100 * result.relief_over_throw));
+                   fmt::format("{} in {} iterations: {} (relief {:.2g} % of the throw)",
+                               flat ? "the points are too flat: the solver did not converge"
+                                    : "the solver did not converge",
+                               fit.iterations, result.weakest_direction, 100 * result.relief_over_throw));
+  }
   const auto independent =
       result.smallest_gap > rank_deficient
           ? ceres_covariance(points, lens, fit.state, {options.loss, 0, double(std::max(size.x, size.y))})

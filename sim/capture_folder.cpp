@@ -2,6 +2,7 @@
 
 #include "sim/error.h"
 #include "sim/image_file.h"
+#include "sim/plain_name.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -48,6 +49,9 @@ CaptureSequence sequence_of(const Json& json) {
   s.exposure_time_s = json.value("exposure_time_s", 0.0);
   s.pictures = json.at("pictures").get<std::vector<std::string>>();
   s.truth = json.value("truth", "");
+  check_plain_name(s.camera, "camera");
+  check_plain_name(s.projector, "projector");
+  for (const std::string& picture : s.pictures) check_inner_path(picture, "pictures");
   return s;
 }
 
@@ -101,9 +105,14 @@ CaptureManifest parse_manifest(const std::string& text, const std::string& file_
     CaptureManifest manifest{
         json.value("scene", ""), json.value("seed", std::uint64_t{0}), json.value("matrices", ""), {}};
     for (const Json& s : json.at("sequences")) manifest.sequences.push_back(sequence_of(s));
+    if (!manifest.scene.empty()) check_inner_path(manifest.scene, "scene");
     return manifest;
   } catch (const Json::exception& error) {
-    throw InputError(fmt::format("{}: not a capture manifest: {}", file_name, error.what()));
+    throw InputError(
+        fmt::format("{}: not a capture manifest: {}", file_name, plain_json_message(error.what())));
+  } catch (const InputError& error) {
+    const std::string message = error.what();
+    throw InputError(message.starts_with(file_name) ? message : file_name + ": " + message);
   }
 }
 

@@ -82,7 +82,8 @@ PatternStack make_pattern_stack(const GraySequence& sequence) {
   validate(sequence);
   const std::vector<GrayPicture> pictures = all_pictures(sequence);
   const std::vector<std::uint8_t> row = first_row(sequence, pictures);
-  PatternStack stack{sequence.projector_size.x, sequence.projector_size.y, int(pictures.size()), {}, linear_light(), {}};
+  PatternStack stack{
+      sequence.projector_size.x, sequence.projector_size.y, int(pictures.size()), {}, linear_light(), {}};
   stack.values.resize(row.size() * stack.height);
   const int rows_begin = 2 * column_bits(sequence), rows_end = stack.count - 2;
   parallel_for(stack.height, [&](std::size_t y) {

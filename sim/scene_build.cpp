@@ -5,6 +5,7 @@
 #include "sim/error.h"
 #include "sim/image_file.h"
 #include "sim/mesh_file.h"
+#include "sim/plain_name.h"
 #include "sim/shapes.h"
 
 #include <fmt/format.h>
@@ -205,7 +206,9 @@ void check(const SceneSpec& scene) {
   check_effects(scene);
   const SceneSpec named = with_names(scene);
   std::set<std::string> names;
+  for (const MeshSpec& mesh : named.meshes) check_plain_name(mesh.name, heading("mesh", ""));
   const auto add = [&](const char* kind, const std::string& name) {
+    check_plain_name(name, heading(kind, ""));
     if (!names.insert(name).second)
       throw InputError(fmt::format("{}: the name is taken by another device, expected one of its own",
                                    heading(kind, name)));

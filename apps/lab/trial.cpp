@@ -36,6 +36,13 @@ void judge(const Scene& scene, const Traced& traced, const Correspondences& corr
   }
   outcome.times.measure("verify", [&] {
     outcome.verification = verify(truth, outcome.solve.estimate, outcome.solve.covariance, points);
+    const double predicted = outcome.verification.volume.predicted_rms;
+    if (outcome.solve.status == Status::ok && !(predicted <= solve_options.tolerance_px)) {
+      outcome.solve.status = Status::weak;
+      outcome.solve.reason =
+          fmt::format("noise predicts {:.3g} px over the volume, above the tolerance of {:.3g} px", predicted,
+                      solve_options.tolerance_px);
+    }
     for (const glm::dvec2& e : error_vectors(truth, outcome.solve.estimate, points)) {
       outcome.surface_error_px.push_back(float(glm::length(e)));
     }

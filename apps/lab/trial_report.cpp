@@ -2,6 +2,7 @@
 
 #include "apps/lab/matrices.h"
 #include "sim/error.h"
+#include "sim/plain_name.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -130,8 +131,8 @@ std::vector<StoredEstimate> read_estimates(const std::filesystem::path& file) {
     }
     return stored;
   } catch (const Json::exception& error) {
-    throw InputError(
-        fmt::format("{}: not an estimate by `laterna calibrate`: {}", file.string(), error.what()));
+    throw InputError(fmt::format("{}: not an estimate by `laterna calibrate`: {}", file.string(),
+                                 plain_json_message(error.what())));
   }
 }
 

@@ -26,6 +26,13 @@ Scene believed_scene(const Words& words, const CaptureManifest& manifest) {
 }
 
 int run(const Words& words, const Common& common) {
+  if (!words.out.empty()) {
+    if (std::filesystem::exists(words.out))
+      throw InputError(fmt::format("{} exists already, expected a new file", words.out));
+    const auto parent = std::filesystem::absolute(words.out).parent_path();
+    if (!std::filesystem::is_directory(parent))
+      throw InputError(fmt::format("{}: no such folder, expected one to write into", parent.string()));
+  }
   std::optional<glm::ivec2> size;
   if (!words.size.empty()) {
     const auto parsed = parse_size(words.size, "--projector-size");

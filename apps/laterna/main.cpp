@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 
 namespace laterna {
@@ -29,6 +30,11 @@ std::array<int, 2> parse_size(const std::string& text, const char* option) {
 
 namespace {
 
+std::string one_line(std::string text) {
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
+}
+
 int run(int argc, char** argv) {
   Common common;
   CLI::App app{
@@ -39,6 +45,7 @@ int run(int argc, char** argv) {
       "one."};
   app.set_version_flag("--version", LATERNA_VERSION);
   app.require_subcommand(1);
+  app.allow_extras(false);
   app.fallthrough();
   app.add_option("--threads", common.threads, "Threads; 0: as many as the machine has")
       ->check(CLI::Range(0, 4096));
@@ -52,8 +59,9 @@ int run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    const int code = app.exit(error);
-    return code == 0 ? exit_ok : exit_bad_input;
+    if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
+    fmt::print(stderr, "laterna: {}; see laterna --help\n", one_line(error.what()));
+    return exit_bad_input;
   }
   return common.exit_code;
 }

@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <iostream>
+#include <vector>
 
 namespace laterna {
 
@@ -56,9 +57,12 @@ void add_project(CLI::App& app, Common&) {
     const Scene scene = load_scene(words->scene);
     const WorldProjection projection(find_device(scene, words->device));
     std::string line;
-    glm::dvec3 x(0.0);
+    std::vector<glm::dvec3> points;  // all are read before the first answer: bad input leaves no half of one
+    glm::dvec3 point(0.0);
     for (std::size_t number = 1; std::getline(std::cin, line); ++number) {
-      if (!parse_point(line, number, x)) continue;
+      if (parse_point(line, number, point)) points.push_back(point);
+    }
+    for (const glm::dvec3& x : points) {
       const glm::dvec3 uvq = projection.project(x);
       const auto text = [](double value) {
         return std::isnan(value) ? std::string("nan") : fmt::format("{}", value);

