@@ -4,6 +4,8 @@
 
 #include <gmock/gmock.h>
 
+#include <vector>
+
 namespace laterna {
 namespace {
 
@@ -13,8 +15,8 @@ TEST(PlainName, TakesWhatPeopleWrite) {
 }
 
 TEST(PlainName, RefusesWhatLeadsElsewhere) {
-  for (const std::string name :
-       {"", "../evil", "/etc", "a/b", "a\\b", ".", "..", ".hidden", "a\nb", std::string(65, 'a').c_str()}) {
+  for (const std::string& name : std::vector<std::string>{"", "../evil", "/etc", "a/b", "a\\b", ".", "..",
+                                                          ".hidden", "a\nb", std::string(65, 'a')}) {
     EXPECT_THAT(testing::input_error([&] { check_plain_name(name, "[[camera]]"); }),
                 ::testing::HasSubstr("[[camera]]: name is"));
   }
