@@ -201,7 +201,7 @@ TEST(DecodeGray, RealCaptureDecodesAsItsReadmeSays) {
   const auto stack = real_capture();
   if (!stack) GTEST_SKIP() << "LATERNA_CAPTURES does not name a folder with graycode-procam-kamino/capture_0";
   const DecodedMap map =
-      decode_gray(*stack, {1024, 768}, {40, 5 + 1e-9, 0, 0});  // its README: |pattern - inverse| > 5
+      decode_gray(*stack, {1024, 768}, {40, 6, 0, 0});  // its README: |pattern - inverse| > 5, in whole DN
   const auto valid = std::count(map.valid.values.begin(), map.valid.values.end(), std::uint8_t{1});
   EXPECT_NEAR(100.0 * double(valid) / double(map.valid.values.size()), 53.8, 0.05);  // given to one decimal
 }
