@@ -86,7 +86,8 @@ void compare(const Captured& as_is, const Captured& toggled, EffectCost& cost) {
   cost.seconds = std::max(0.0, with.seconds - without.seconds);
 }
 
-bool has_parameters(SceneSpec spec, const EffectSwitch& effect) {
+bool has_parameters(const SceneSpec& given, const EffectSwitch& effect) {
+  SceneSpec spec = given;
   spec.effects.*effect.on = true;
   try {
     check_effects(spec);
