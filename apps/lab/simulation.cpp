@@ -89,8 +89,8 @@ Overlap overlap(const Scene& scene, const Traced& traced, const View& view) {
     hits += surface.hit(i);
     if (!view.light.lit(i)) continue;
     ++lit;
-    const int x = std::clamp(int(view.light.u_px.values[i] + 0.5), 0, size.x - 1) / cell_px;
-    const int y = std::clamp(int(view.light.v_px.values[i] + 0.5), 0, size.y - 1) / cell_px;
+    const int x = nearest_texel(view.light.u_px.values[i], size.x) / cell_px;
+    const int y = nearest_texel(view.light.v_px.values[i], size.y) / cell_px;
     seen[std::size_t(y) * cells.x + x] = true;
   }
   const auto count = std::count(seen.begin(), seen.end(), true);

@@ -45,7 +45,6 @@ int run(int argc, char** argv) {
       "one."};
   app.set_version_flag("--version", LATERNA_VERSION);
   app.require_subcommand(1);
-  app.allow_extras(false);
   app.fallthrough();
   app.add_option("--threads", common.threads, "Threads; 0: as many as the machine has")
       ->check(CLI::Range(0, 4096));
