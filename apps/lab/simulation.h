@@ -3,6 +3,7 @@
 #pragma once
 
 #include "render/direct_light.h"
+#include "render/image_rows.h"
 #include "render/ray_scene.h"
 #include "render/surface.h"
 #include "sim/image.h"
@@ -44,7 +45,8 @@ struct View {
 /// What does not depend on the patterns: rays are traced once.
 struct Traced {
   RayScene rays;
-  std::vector<SurfaceMap> surfaces;  ///< one per camera
+  std::vector<CameraRays> directions;  ///< one per camera
+  std::vector<SurfaceMap> surfaces;    ///< one per camera
   std::vector<PixelArray<glm::dvec3>>
       points_world;         ///< one per camera: what each pixel sees, m; NaN where nothing
   std::vector<View> views;  ///< camera by camera, projector by projector
@@ -54,9 +56,18 @@ struct Traced {
 /// sensor's own, or automatic. Throws InputError where the scene has no projector or no camera.
 Traced trace(const Scene& scene, StageTimes& times, const Progress& progress = {});
 
+/// The rows of one view, with every effect of the scene: from the maps where a pixel's row is the direct
+/// light at its centre, else traced anew at each call. `scene` and `traced` must outlive the result. `seed`
+/// places samples.
+ImageRows view_rows(const Scene& scene, const Traced& traced, const View& view, std::uint64_t seed);
+
 /// The pictures of one view: the projector's sequence with the other projectors at black.
 CapturedStack capture_view(const Scene& scene, const Traced& traced, const View& view, std::uint64_t seed,
                            StageTimes& times);
+
+/// Pictures of rows at hand. `seed` draws the noise.
+CapturedStack capture_rows(const Scene& scene, int camera, int projector, const ImageRows& rows,
+                           double saturation_cd_per_m2, std::uint64_t seed, StageTimes& times);
 
 /// Share of something, in per cent, for people.
 struct Overlap {
