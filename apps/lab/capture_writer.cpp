@@ -3,6 +3,7 @@
 #include "apps/lab/matrices.h"
 #include "apps/lab/truth_picture.h"
 #include "render/effects/scaler.h"
+#include "render/trace_rows.h"
 #include "sim/capture_folder.h"
 #include "sim/error.h"
 #include "sim/image_file.h"
@@ -62,7 +63,8 @@ CaptureSequence write_view(const Scene& scene, const Rig& rig, int camera, int p
   CaptureSequence sequence;
   {
     const CapturedStack stack =
-        capture_rows(scene, camera, projector, rig_rows(scene, rig, camera, projector, options.seed),
+        capture_rows(scene, camera, projector,
+                     rig_rows(scene, rig, camera, projector, samples_of(scene, camera, options.seed)),
                      saturation, options.seed, times);
     sequence = describe(scene, camera, projector, saturation, options, count_of(stack));
     if (progress) {
