@@ -10,24 +10,42 @@
 #include "sim/self_contained.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
 
 namespace laterna {
 
 namespace {
 
+constexpr std::array formats{"png", "tif", "pgm", "exr", "tif-pages"};
+
+void check_format(const std::string& format, const Scene& scene) {
+  if (std::find(formats.begin(), formats.end(), format) == formats.end())
+    throw InputError(fmt::format("--format: found \"{}\", expected {}", format, fmt::join(formats, ", ")));
+  for (const Camera& camera : scene.cameras) {
+    if (format == "pgm" && camera.sensor.bit_depth > 8)
+      throw InputError(
+          fmt::format("--format: pgm holds 8 bits, but camera \"{}\" has {}; expected another format",
+                      camera.device.name, camera.sensor.bit_depth));
+  }
+}
+
+/// The files of one sequence, relative to the folder.
+std::vector<std::string> file_names(const std::string& folder, const std::string& format, int pictures) {
+  if (format == "tif-pages") return {folder + "/pages.tif"};
+  std::vector<std::string> names;
+  for (int k = 0; k < pictures; ++k) names.push_back(fmt::format("{}/{:02}.{}", folder, k, format));
+  return names;
+}
+
 void write_pictures(const std::filesystem::path& root, const CapturedStack& stack,
                     const std::vector<std::string>& names) {
-  std::visit(
-      [&](const auto& pictures) {
-        using Value = typename std::decay_t<decltype(pictures)>::value_type;
-        parallel_for(names.size(), [&](std::size_t k) {
-          const PixelType type = sizeof(Value) == 1 ? PixelType::u8 : PixelType::u16;
-          write_picture(root / names[k],
-                        {pictures.picture(int(k)).data(), pictures.width, pictures.height, 1, type, {"Y"}});
-        });
-      },
-      stack);
+  std::vector<std::filesystem::path> files;
+  for (const std::string& name : names) files.push_back(root / name);
+  write_stack(files, stack);
 }
 
 int count_of(const CapturedStack& stack) {
@@ -47,8 +65,7 @@ CaptureSequence describe(const Scene& scene, const View& view, const std::string
   s.saturation_cd_per_m2 = view.saturation_cd_per_m2;
   if (camera.sensor.kind == SensorKind::emva1288)
     s.exposure_time_s = exposure_time_s(camera.sensor, view.saturation_cd_per_m2);
-  for (int k = 0; k < pictures; ++k)
-    s.pictures.push_back(fmt::format("{}/{}/{:02}.{}", s.camera, s.projector, k, format));
+  s.pictures = file_names(s.camera + "/" + s.projector, format, pictures);
   if (truth) s.truth = fmt::format("truth/{}_{}.exr", s.camera, s.projector);
   return s;
 }
@@ -88,9 +105,7 @@ void write_truth(const std::filesystem::path& path, const Traced& traced, const 
 void write_capture(const SceneSpec& spec, const Scene& scene, const std::filesystem::path& folder,
                    const std::filesystem::path& target, const CaptureOptions& options, StageTimes& times,
                    const Progress& progress) {
-  if (options.format != "png" && options.format != "tif" && options.format != "pgm") {
-    throw InputError(fmt::format("--format: found \"{}\", expected png, tif or pgm", options.format));
-  }
+  check_format(options.format, scene);
   PendingFolder pending(target);
   const std::filesystem::path root = pending.path();
   const Traced traced = trace(scene, times, progress);
@@ -102,9 +117,9 @@ void write_capture(const SceneSpec& spec, const Scene& scene, const std::filesys
     const CapturedStack stack = capture_view(scene, traced, view, options.seed, times);
     const CaptureSequence sequence = describe(scene, view, options.format, count_of(stack), options.truth);
     if (progress) {
-      progress(fmt::format(
-          "writing {} pictures of \"{}\" by \"{}\", exposed so that {:.4g} cd/m² fill the scale",
-          sequence.pictures.size(), sequence.projector, sequence.camera, view.saturation_cd_per_m2));
+      progress(
+          fmt::format("writing {} pictures of \"{}\" by \"{}\", exposed so that {:.4g} cd/m² fill the scale",
+                      count_of(stack), sequence.projector, sequence.camera, view.saturation_cd_per_m2));
     }
     times.measure("write", [&] {
       std::filesystem::create_directories(root / sequence.camera / sequence.projector);
