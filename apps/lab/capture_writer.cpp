@@ -123,8 +123,11 @@ void write_capture(const SceneSpec& spec, const Scene& scene, const std::filesys
     }
     times.measure("write", [&] {
       std::filesystem::create_directories(root / sequence.camera / sequence.projector);
-      write_pictures(root, stack, sequence.pictures);
-      if (options.truth) write_truth(root / sequence.truth, traced, view);
+      // The truth, one long picture, is packed beside the others.
+      parallel_for(options.truth ? 2 : 1, [&](std::size_t part) {
+        if (part == 0) write_pictures(root, stack, sequence.pictures);
+        if (part == 1) write_truth(root / sequence.truth, traced, view);
+      });
     });
     manifest.sequences.push_back(sequence);
   }
