@@ -45,10 +45,35 @@ ImageRows direct_view_rows(const Scene& scene, const Traced& traced, const View&
 
 }  // namespace
 
-Traced trace(const Scene& scene, StageTimes& times, const Progress& progress) {
+Rig make_rig(const Scene& scene, StageTimes& times) {
   if (scene.projectors.empty()) throw InputError("the scene has no [[projector]], expected at least one");
   if (scene.cameras.empty()) throw InputError("the scene has no [[camera]], expected at least one");
-  Traced traced{times.measure("build", [&] { return RayScene(scene); }), {}, {}, {}, {}};
+  Rig rig{times.measure("build", [&] { return RayScene(scene); }), {}};
+  times.measure("surface", [&] {
+    for (const Camera& camera : scene.cameras) rig.directions.emplace_back(camera.device);
+  });
+  return rig;
+}
+
+ImageRows rig_rows(const Scene& scene, const Rig& rig, int camera, int projector,
+                   const PixelSamples& samples) {
+  const CameraRays& directions = rig.directions[camera];
+  return {{directions.width(), directions.height()},
+          trace_rows(rig.rays, scene, camera, directions, projector, samples)};
+}
+
+double saturation_cd_per_m2(const Scene& scene, const Rig& rig, int camera, int projector,
+                            StageTimes& times) {
+  const std::optional<double> fixed = fixed_saturation_cd_per_m2(scene.cameras[camera].sensor);
+  if (fixed) return *fixed;
+  const CameraRays& directions = rig.directions[camera];
+  const ImageRows direct{{directions.width(), directions.height()},
+                         trace_rows(rig.rays, scene, camera, directions, projector)};
+  return times.measure("exposure", [&] { return automatic_saturation_cd_per_m2({&direct, 1}); });
+}
+
+Traced trace(const Scene& scene, StageTimes& times, const Progress& progress) {
+  Traced traced{make_rig(scene, times), {}, {}, {}};
   const RayScene& rays = traced.rays;
   for (int c = 0; c < int(scene.cameras.size()); ++c) {
     const Camera& camera = scene.cameras[c];
@@ -57,10 +82,8 @@ Traced trace(const Scene& scene, StageTimes& times, const Progress& progress) {
                            camera.device.intrinsics.size.x, camera.device.intrinsics.size.y,
                            camera.device.name, scene.projectors.size()));
     }
-    traced.surfaces.push_back(times.measure("surface", [&] {
-      traced.directions.emplace_back(camera.device);
-      return trace_surface(rays, scene, camera, traced.directions.back());
-    }));
+    traced.surfaces.push_back(
+        times.measure("surface", [&] { return trace_surface(rays, scene, camera, traced.directions[c]); }));
     traced.points_world.push_back(
         times.measure("surface", [&] { return points_world(traced.surfaces[c], scene); }));
     std::vector<LightMap> lights;
@@ -83,10 +106,7 @@ Traced trace(const Scene& scene, StageTimes& times, const Progress& progress) {
 
 ImageRows view_rows(const Scene& scene, const Traced& traced, const View& view, std::uint64_t seed) {
   if (rows_are_direct(scene, view.camera)) return direct_view_rows(scene, traced, view);
-  const CameraRays& directions = traced.directions[view.camera];
-  return {{directions.width(), directions.height()},
-          trace_rows(traced.rays, scene, view.camera, directions, view.projector,
-                     samples_of(scene, view.camera, seed))};
+  return rig_rows(scene, traced, view.camera, view.projector, samples_of(scene, view.camera, seed));
 }
 
 CapturedStack capture_rows(const Scene& scene, int camera, int projector, const ImageRows& rows,
