@@ -37,6 +37,24 @@ void aim(Tile& tile, const CameraRays& directions, const SurfaceMap& map, const 
   }
 }
 
+// Moves the rays' starts to the lens, and turns them about where they meet in focus.
+void start_on_lens(Tile& tile, const CameraView& view, const SurfaceMap& map, const LensPoints& lens,
+                   RayPacket& packet) {
+  tile.directions.from_lens = true;
+  for (int lane = 0; lane < packet_size; ++lane) {
+    const int i = lane % tile_edge, j = lane / tile_edge;
+    const bool inside = i < tile.count_x && j < tile.count_y;
+    const glm::dvec2 at =
+        inside ? glm::dvec2(lens.points_m[map.object.index(tile.x0 + i, tile.y0 + j)]) : glm::dvec2(0.0);
+    const glm::dvec3 start = view.camera_relative + view.world_from_device * glm::dvec3(at, 0.0);
+    tile.directions.start_x_m[lane] = at.x, tile.directions.start_y_m[lane] = at.y;
+    tile.directions.x[lane] -= at.x / lens.focus_m, tile.directions.y[lane] -= at.y / lens.focus_m;
+    packet.origin_x[lane] = static_cast<float>(start.x);
+    packet.origin_y[lane] = static_cast<float>(start.y);
+    packet.origin_z[lane] = static_cast<float>(start.z);
+  }
+}
+
 // Planes are far apart in memory: they are asked for when the hit is known and used a row of tiles later.
 void fetch_planes_ahead(const HitPacket& hits, const RayScene& scene) {
   for (int lane = 0; lane < packet_size; ++lane)
@@ -140,7 +158,7 @@ SurfaceMap make_surface_map(const PixelRegion& region) {
 }
 
 void trace_surface_tiles(const RayScene& rays, const CameraView& view, const CameraRays& directions,
-                         int tile_row, SurfaceMap& map, const glm::vec2* offsets_px) {
+                         int tile_row, SurfaceMap& map, const glm::vec2* offsets_px, const LensPoints* lens) {
   RayPacket packet = packet_from(view);
   std::vector<Tile> tiles((map.width + tile_edge - 1) / tile_edge);
   for (std::size_t k = 0; k < tiles.size(); ++k) {
@@ -149,6 +167,7 @@ void trace_surface_tiles(const RayScene& rays, const CameraView& view, const Cam
     tile.count_x = std::min(tile_edge, map.width - tile.x0);
     tile.count_y = std::min(tile_edge, map.height - tile.y0);
     aim(tile, directions, map, offsets_px);
+    if (lens) start_on_lens(tile, view, map, *lens, packet);
     aim_tile(view.world_from_device, tile.directions, packet);
     std::fill_n(packet.end, packet_size, std::numeric_limits<float>::infinity());
     rays.trace(packet);

@@ -128,15 +128,21 @@ void refine_tile(const glm::dmat3& m, const glm::dvec3& camera_from_center, cons
     const V nx = load(planes.normal_x + i), ny = load(planes.normal_y + i), nz = load(planes.normal_z + i);
     const V rx = row(m, 0, x, y), ry = row(m, 1, x, y), rz = row(m, 2, x, y);
     const V slope = dot(nx, ny, nz, rx, ry, rz);
-    const V height = dot(nx, ny, nz, set(c.x), set(c.y), set(c.z));
+    V bx = hn::Zero(d), by = hn::Zero(d), bz = hn::Zero(d);  // the start beside the camera's centre
+    if (directions.from_lens) {
+      const V sx = load(directions.start_x_m + i), sy = load(directions.start_y_m + i);
+      bx = row(m, 0, sx, sy, hn::Zero(d)), by = row(m, 1, sx, sy, hn::Zero(d)),
+      bz = row(m, 2, sx, sy, hn::Zero(d));
+    }
+    const V height = dot(nx, ny, nz, hn::Add(set(c.x), bx), hn::Add(set(c.y), by), hn::Add(set(c.z), bz));
     const V plane = hn::Div(hn::Sub(load(planes.distance + i), height), slope);
     const V embree = hn::PromoteTo(d, hn::Load(f, embree_depth + i));
     const Mask near = hn::Le(hn::Abs(hn::Sub(plane, embree)), hn::Mul(set(1e-3), embree));
     const V depth = hn::IfThenElse(near, plane, embree);
     store(depth, surface.depth_m + i);
-    store(hn::Add(set(o.x), hn::Mul(depth, rx)), surface.x + i);
-    store(hn::Add(set(o.y), hn::Mul(depth, ry)), surface.y + i);
-    store(hn::Add(set(o.z), hn::Mul(depth, rz)), surface.z + i);
+    store(hn::Add(hn::Add(set(o.x), bx), hn::Mul(depth, rx)), surface.x + i);
+    store(hn::Add(hn::Add(set(o.y), by), hn::Mul(depth, ry)), surface.y + i);
+    store(hn::Add(hn::Add(set(o.z), bz), hn::Mul(depth, rz)), surface.z + i);
     store(slope, surface.slope + i);
   }
 }

@@ -25,6 +25,8 @@ using TileFloats = float[packet_size];
 /// The rays of a tile: x/z and y/z in the camera's frame, NaN where there is none.
 struct alignas(64) TileRays {
   TileDoubles x, y;
+  bool from_lens = false;            ///< whether they start beside the camera's centre:
+  TileDoubles start_x_m, start_y_m;  ///< there, in the camera's plane z = 0
 };
 
 /// The planes that a tile's rays meet: normal·(x - center_object) = distance in the object's frame.
@@ -38,11 +40,13 @@ struct alignas(64) TileSurface {
   TileDoubles slope;             ///< normal·ray: negative where the front side is seen
 };
 
-/// Writes `rays` in world axes, valid where there is a direction. `world_from_device`: by columns.
+/// Writes the directions of `rays` in world axes, valid where there is a direction. `world_from_device`: by
+/// columns.
 void aim_tile(const glm::dmat3& world_from_device, const TileRays& directions, RayPacket& rays);
 
 /// depth = (distance - normal·camera_from_center)/slope, or Embree's where that differs by more than 1e-3 of
-/// it; point = camera_object + depth·object_from_device·(x, y, 1).
+/// it; point = camera_object + depth·object_from_device·(x, y, 1), where rays that start beside the camera's
+/// centre add their start to both places of the camera.
 void refine_tile(const glm::dmat3& object_from_device, const glm::dvec3& camera_from_center,
                  const glm::dvec3& camera_object, const TileRays& directions, const TilePlanes& planes,
                  const TileFloats& embree_depth, TileSurface& surface);

@@ -1,4 +1,5 @@
 // laterna-bench: what the hot stages cost, beside what the machine can do, measured in one run.
+#include "apps/bench/picture_ratio.h"
 #include "apps/bench/replay_ratio.h"
 #include "apps/bench/stage_ratio.h"
 #include "sim/error.h"
@@ -36,6 +37,7 @@ nlohmann::ordered_json measure(const Options& options) {
   const VisibilityTimes visibility = against_the_best(scene, options.repeats);
   const ReplayTimes replay = time_replay(scene, options.repeats);
   const StackTimes stack = time_stack(scene, std::max(1, options.repeats / 3));
+  const PictureTimes pictures = time_pictures(std::max(1, options.repeats / 3));
   return {{"visibility_over_embree", visibility.ratio},
           {"replay_bilinear_over_fill", replay.bilinear_over_fill},
           {"replay_binary_over_fill", replay.binary_over_fill},
@@ -45,6 +47,9 @@ nlohmann::ordered_json measure(const Options& options) {
           {"stack44_seconds", stack.one},
           {"stack44_spp16_seconds", stack.sixteen},
           {"roundtrip_seconds", time_roundtrip(scene, std::max(1, options.repeats / 3))},
+          {"write_png44_over_copy", pictures.png_over_copy},
+          {"write_tif44_over_copy", pictures.tif_over_copy},
+          {"write_tif_pages44_over_copy", pictures.pages_over_copy},
           {"threads", thread_count()},
           {"isa", instruction_set()},
           {"fill_seconds", replay.fill},

@@ -55,10 +55,11 @@ Rig make_rig(const Scene& scene, StageTimes& times) {
   return rig;
 }
 
-ImageRows rig_rows(const Scene& scene, const Rig& rig, int camera, int projector, std::uint64_t seed) {
+ImageRows rig_rows(const Scene& scene, const Rig& rig, int camera, int projector,
+                   const PixelSamples& samples) {
   const CameraRays& directions = rig.directions[camera];
   return {{directions.width(), directions.height()},
-          trace_rows(rig.rays, scene, camera, directions, projector, samples_of(scene, camera, seed))};
+          trace_rows(rig.rays, scene, camera, directions, projector, samples)};
 }
 
 double saturation_cd_per_m2(const Scene& scene, const Rig& rig, int camera, int projector,
@@ -105,7 +106,7 @@ Traced trace(const Scene& scene, StageTimes& times, const Progress& progress) {
 
 ImageRows view_rows(const Scene& scene, const Traced& traced, const View& view, std::uint64_t seed) {
   if (rows_are_direct(scene, view.camera)) return direct_view_rows(scene, traced, view);
-  return rig_rows(scene, traced, view.camera, view.projector, seed);
+  return rig_rows(scene, traced, view.camera, view.projector, samples_of(scene, view.camera, seed));
 }
 
 CapturedStack capture_rows(const Scene& scene, int camera, int projector, const ImageRows& rows,

@@ -4,6 +4,7 @@
 
 #include "render/direct_light.h"
 #include "render/image_rows.h"
+#include "render/pixel_samples.h"
 #include "render/ray_scene.h"
 #include "render/surface.h"
 #include "sim/image.h"
@@ -64,7 +65,8 @@ struct Traced : Rig {
 Traced trace(const Scene& scene, StageTimes& times, const Progress& progress = {});
 
 /// The rows of one view, with every effect of the scene, traced at each call: no map of the image is held.
-ImageRows rig_rows(const Scene& scene, const Rig& rig, int camera, int projector, std::uint64_t seed);
+ImageRows rig_rows(const Scene& scene, const Rig& rig, int camera, int projector,
+                   const PixelSamples& samples);
 
 /// The luminance that fills the scale: the sensor's own, or automatic, from direct light at pixel centres.
 double saturation_cd_per_m2(const Scene& scene, const Rig& rig, int camera, int projector, StageTimes& times);
