@@ -200,11 +200,13 @@ SurfaceMap trace_surface(const RayScene& rays, const Scene& scene, const Camera&
 
 PixelArray<glm::dvec3> points_world(const SurfaceMap& surface, const Scene& scene) {
   PixelArray<glm::dvec3> points(surface.width, surface.height);
-  for (std::size_t p = 0; p < points.values.size(); ++p) {
-    points.values[p] = surface.hit(p) ? glm::dvec3(scene.objects[surface.object.values[p]].world_from_object *
-                                                   glm::dvec4(surface.point_object.values[p], 1.0))
-                                      : glm::dvec3(nan);
-  }
+  parallel_for(surface.height, [&](std::size_t y) {
+    for (std::size_t p = y * surface.width; p < (y + 1) * surface.width; ++p)
+      points.values[p] = surface.hit(p)
+                             ? glm::dvec3(scene.objects[surface.object.values[p]].world_from_object *
+                                          glm::dvec4(surface.point_object.values[p], 1.0))
+                             : glm::dvec3(nan);
+  });
   return points;
 }
 

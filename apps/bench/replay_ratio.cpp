@@ -42,10 +42,18 @@ struct WarmRows {
       source.rows(rows.back());
     }
   }
+  // Each thread's cache holds its own, as it holds what it has just traced.
+  std::vector<LightRows>& rows_of_this_thread() const {
+    thread_local const WarmRows* owner = nullptr;
+    thread_local std::vector<LightRows> own;
+    if (owner != this) own = rows;
+    owner = this;
+    return own;
+  }
   void play(Lookup lookup, const AnyPatterns& patterns, const Exposure& exposure, CapturedStack& out) const {
     const glm::ivec2 count = image.size / image.region_px;
     parallel_for(count.y, [&](std::size_t y) {
-      std::vector<LightRows> own = rows;  // each thread's cache holds its own
+      std::vector<LightRows>& own = rows_of_this_thread();
       for (int x = 0; x < count.x; ++x) {
         LightRows& r = own[x % own.size()];
         r.region.x = x * image.region_px.x, r.region.y = int(y) * image.region_px.y;

@@ -43,6 +43,7 @@ void judge(const Scene& scene, const Traced& traced, const Correspondences& corr
           fmt::format("noise predicts {:.3g} px over the volume, above the tolerance of {:.3g} px", predicted,
                       solve_options.tolerance_px);
     }
+    outcome.surface_error_px.reserve(points.size());
     for (const glm::dvec2& e : error_vectors(truth, outcome.solve.estimate, points)) {
       outcome.surface_error_px.push_back(float(glm::length(e)));
     }
