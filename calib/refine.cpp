@@ -133,7 +133,7 @@ class StackedBlock : public ceres::CostFunction {
   mutable Evaluation last_;  // Ceres evaluates on one thread
 };
 
-constexpr double negligible_step_sigmas = 1e-9;
+constexpr double negligible_step_sigmas = 1e-6;
 
 // Ends the iterations where the next step would not matter.
 class StepWatch : public ceres::IterationCallback {
@@ -204,7 +204,7 @@ std::optional<Refinement> refine(const PointTable& points, const LensGradient& l
   result.converged = no_step_left || summary.termination_type == ceres::CONVERGENCE;
   result.iterations = int(summary.iterations.size()) - 1;
   result.termination =
-      no_step_left ? "Convergence. The next step is below 1e-9 standard deviations." : summary.message;
+      no_step_left ? "Convergence. The next step is below 1e-6 standard deviations." : summary.message;
   return result;
 }
 

@@ -26,7 +26,7 @@ struct Refinement {
 };
 
 /// Minimises ½ Σ ρ(s) over fx, fy, cx, cy, the lens and the pose, until the next Gauss-Newton step δ is below
-/// 1e-9 standard deviations (δᵀ·JᵀJ·δ < 1e-18), or to Ceres's convergence at tolerances near rounding. Ceres
+/// 1e-6 standard deviations (δᵀ·JᵀJ·δ < 1e-12), or to Ceres's convergence at tolerances near rounding. Ceres
 /// sees one residual block that holds the triangular factor [R z; 0 ρ] of all rows: the same cost, gradient
 /// and normal equations. A trial step that puts a point behind the device is shortened. None where the start
 /// itself has a point behind, or something is not finite.
