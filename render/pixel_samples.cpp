@@ -8,13 +8,6 @@ namespace laterna {
 
 namespace {
 
-// The cells that a pixel is cut into.
-glm::ivec2 strata(int count) {
-  int rows = static_cast<int>(std::sqrt(double(count)));
-  while (count % rows != 0) --rows;
-  return {count / rows, rows};
-}
-
 // Two times 16 bits for a sample; four samples share a draw.
 std::uint32_t draw(const PixelSamples& samples, std::uint32_t camera, const glm::ivec2& pixel, int sample) {
   using Philox = r123::Philox4x32;
@@ -26,14 +19,20 @@ std::uint32_t draw(const PixelSamples& samples, std::uint32_t camera, const glm:
 
 }  // namespace
 
+glm::ivec2 cells(int count) {
+  int rows = static_cast<int>(std::sqrt(double(count)));
+  while (count % rows != 0) --rows;
+  return {count / rows, rows};
+}
+
 glm::vec2 sample_offset_px(const PixelSamples& samples, std::uint32_t camera, const glm::ivec2& pixel,
                            int sample) {
   if (samples.count == 1) return {0, 0};
-  const glm::ivec2 cells = strata(samples.count);
+  const glm::ivec2 grid = cells(samples.count);
   const std::uint32_t bits = draw(samples, camera, pixel, sample);
-  const glm::vec2 cell(sample % cells.x, sample / cells.x);
+  const glm::vec2 cell(sample % grid.x, sample / grid.x);
   const glm::vec2 inside = (glm::vec2(bits & 0xffffu, bits >> 16) + 0.5f) * 0x1p-16f;
-  return (cell + inside) / glm::vec2(cells) - 0.5f;
+  return (cell + inside) / glm::vec2(grid) - 0.5f;
 }
 
 }  // namespace laterna

@@ -1,6 +1,7 @@
 #include "render/trace_rows.h"
 
 #include "render/effects/apply_effects.h"
+#include "render/effects/inter_reflection.h"
 #include "render/effects/response.h"
 #include "render/exposure.h"
 #include "sim/error.h"
@@ -8,13 +9,19 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 
 namespace laterna {
 
 namespace {
 
-// The maps of one region, for one sample of each of its pixels.
+bool bounces(const Scene& scene) {
+  return scene.effects.inter_reflection && scene.inter_reflection.bounces > 0;
+}
+
+// The maps of one region, for one sample of each of its pixels: of what the camera sees, or of where one path
+// of each has come to; then the surface's albedo is the path's throughput.
 struct Maps {
   SurfaceMap surface;
   std::vector<LightMap> lights;  // the playing projector's, then the idle ones'
@@ -46,18 +53,20 @@ class Tracer {
 
   void operator()(LightRows& rows) const {
     Maps maps(rows.region, idle_);
-    if (samples_.count == 1) {
-      trace(maps, nullptr);
+    if (samples_.count == 1 && !bounces(scene_)) {
+      see(maps, nullptr);
       direct_rows(maps.surface, maps.lights[0], maps.idle, scene_.ambient_lx, rows);
       return;
     }
     RowBuilder builder(rows.region.size());
-    std::vector<glm::vec2> offsets(rows.region.size());
+    std::vector<glm::vec2> offsets(samples_.count > 1 ? rows.region.size() : 0);
     rows.ambient_cd_per_m2.assign(rows.region.size(), 0);
+    const double share = 1.0 / samples_.count;
     for (int sample = 0; sample < samples_.count; ++sample) {
       jitter(rows.region, sample, offsets);
-      trace(maps, offsets.data());
-      collect(maps, rows, builder);
+      see(maps, offsets.empty() ? nullptr : offsets.data());
+      collect(maps, share, scene_.ambient_lx, rows, builder);
+      if (bounces(scene_)) reflect(maps, sample, share, rows, builder);
     }
     builder.finish(rows);
   }
@@ -68,18 +77,41 @@ class Tracer {
     views_.push_back(make_projector_view(rays_, scene_, scene_.projectors[index]));
   }
 
-  void trace(Maps& maps, const glm::vec2* offsets) const {
+  // What the camera sees, and the projectors' light on it.
+  void see(Maps& maps, const glm::vec2* offsets) const {
     SurfaceMap& surface = maps.surface;
-    for (int tile_row = 0; tile_row * tile_edge < surface.height; ++tile_row) {
+    for (int tile_row = 0; tile_row * tile_edge < surface.height; ++tile_row)
       trace_surface_tiles(rays_, camera_, directions_, tile_row, surface, offsets);
-      for (std::size_t i = 0; i < views_.size(); ++i)
-        trace_light_tiles(rays_, views_[i], surface, tile_row, maps.lights[i]);
-    }
+    light(maps);
     const Camera& camera = scene_.cameras[camera_index_];
     apply_surface_effects(surface, scene_);
     for (std::size_t i = 0; i < views_.size(); ++i)
       apply_light_effects(maps.lights[i], surface, rays_, scene_, *projectors_[i], camera);
     apply_camera_effects(surface, rays_, scene_, camera);
+  }
+
+  void light(Maps& maps) const {
+    for (std::size_t i = 0; i < views_.size(); ++i)
+      for (int tile_row = 0; tile_row * tile_edge < maps.surface.height; ++tile_row)
+        trace_light_tiles(rays_, views_[i], maps.surface, tile_row, maps.lights[i]);
+  }
+
+  // Adds what comes to the points that the camera sees by way of others. Overwrites the maps.
+  void reflect(Maps& maps, int sample, double share, LightRows& rows, RowBuilder& builder) const {
+    const auto [bounces, paths] = scene_.inter_reflection;
+    const SurfaceMap seen = maps.surface;
+    for (int path = 0; path < paths; ++path) {
+      maps.surface = seen;
+      for (int bounce = 0; bounce < bounces; ++bounce) {
+        follow_paths(rays_, scene_,
+                     {samples_.seed, std::uint32_t(camera_index_), sample, path, paths, bounce},
+                     maps.surface);
+        light(maps);
+        for (std::size_t i = 0; i < views_.size(); ++i)
+          apply_light_effects(maps.lights[i], maps.surface, rays_, scene_, *projectors_[i]);
+        collect(maps, share / paths, 0, rows, builder);
+      }
+    }
   }
 
   void jitter(const PixelRegion& region, int sample, std::vector<glm::vec2>& offsets) const {
@@ -89,12 +121,12 @@ class Tracer {
     }
   }
 
-  void collect(const Maps& maps, LightRows& rows, RowBuilder& builder) const {
-    const double share = 1.0 / samples_.count;
+  void collect(const Maps& maps, double share, double ambient_lx, LightRows& rows,
+               RowBuilder& builder) const {
     const LightMap& light = maps.lights[0];
     for (std::size_t p = 0; p < rows.region.size(); ++p) {
       rows.ambient_cd_per_m2[p] +=
-          share * constant_luminance_cd_per_m2(maps.surface, maps.idle, scene_.ambient_lx, p);
+          share * constant_luminance_cd_per_m2(maps.surface, maps.idle, ambient_lx, p);
       if (!light.lit(p)) continue;
       const double albedo = maps.surface.albedo.values[p];
       builder.add(p, {light.u_px.values[p], light.v_px.values[p],
@@ -137,6 +169,17 @@ std::vector<IdleProjector> idle_projectors(const Scene& scene, int projector) {
   return idle;
 }
 
-bool rows_are_direct(const Scene& scene, int camera) { return samples_of(scene, camera, 0).count == 1; }
+bool rows_are_direct(const Scene& scene, int camera) {
+  return samples_of(scene, camera, 0).count == 1 && !bounces(scene);
+}
+
+glm::ivec2 region_px_of(const Scene& scene, const PixelSamples& samples) {
+  // 2¹⁸ entries: 8 MiB, in memory twice while they are put in order.
+  constexpr std::int64_t most_entries = 1 << 18, tile_pixels = tile_edge * tile_edge;
+  const InterReflection& r = scene.inter_reflection;
+  const std::int64_t per_path = bounces(scene) ? std::int64_t(r.paths) * r.bounces : 0;
+  const std::int64_t tiles = most_entries / (samples.count * (1 + per_path) * tile_pixels);
+  return {tile_edge * std::clamp<int>(int(tiles), 1, ImageRows{}.region_px.x / tile_edge), tile_edge};
+}
 
 }  // namespace laterna

@@ -13,6 +13,7 @@ struct Effects {
   bool gloss = false, normal_map = false, solid_albedo = false;
   bool response = false, black_level = false;
   bool antialiasing = false;
+  bool inter_reflection = false;
   bool operator==(const Effects&) const = default;
 };
 
@@ -53,6 +54,9 @@ inline constexpr auto all_effects = std::to_array<EffectSwitch>({
      &Effects::response},
     {"black_level", "pattern", "Needs `black_level` of a [[projector]].", &Effects::black_level},
     {"antialiasing", "rays", "Needs `samples_per_pixel` above 1 of a [[camera]].", &Effects::antialiasing},
+    {"inter_reflection", "rows",
+     "Surfaces light each other, diffusely. Needs `bounces` above 0 of [inter_reflection].",
+     &Effects::inter_reflection},
 });
 
 /// Whether the panel shows anything but the pattern sequence as it stands.

@@ -43,6 +43,20 @@ ImageRows direct_view_rows(const Scene& scene, const Traced& traced, const View&
           }};
 }
 
+// Rows by which a view is exposed: all of them, or, where surfaces light each other, every sixteenth tile
+// along diagonals, since a row costs many rays then.
+ImageRows exposure_rows(const Scene& scene, const ImageRows& whole) {
+  if (!scene.effects.inter_reflection) return whole;
+  const RowSource thinned = [rows = whole.rows](LightRows& out) {
+    const PixelRegion& r = out.region;
+    if ((r.x + r.y * 3) / tile_edge % 16 == 0) return rows(out);
+    out.begin.assign(r.size() + 1, 0);
+    out.entries.clear();
+    out.ambient_cd_per_m2.assign(r.size(), 0);
+  };
+  return {whole.size, thinned, glm::ivec2(tile_edge)};
+}
+
 }  // namespace
 
 Traced trace(const Scene& scene, StageTimes& times, const Progress& progress) {
@@ -73,9 +87,9 @@ Traced trace(const Scene& scene, StageTimes& times, const Progress& progress) {
   }
   for (View& view : traced.views) {
     const std::optional<double> fixed = fixed_saturation_cd_per_m2(scene.cameras[view.camera].sensor);
-    const ImageRows direct = direct_view_rows(scene, traced, view);
     view.saturation_cd_per_m2 = fixed ? *fixed : times.measure("exposure", [&] {
-      return automatic_saturation_cd_per_m2({&direct, 1});
+      const ImageRows rows = exposure_rows(scene, view_rows(scene, traced, view, 0));
+      return automatic_saturation_cd_per_m2({&rows, 1});
     });
   }
   return traced;
@@ -84,9 +98,10 @@ Traced trace(const Scene& scene, StageTimes& times, const Progress& progress) {
 ImageRows view_rows(const Scene& scene, const Traced& traced, const View& view, std::uint64_t seed) {
   if (rows_are_direct(scene, view.camera)) return direct_view_rows(scene, traced, view);
   const CameraRays& directions = traced.directions[view.camera];
+  const PixelSamples samples = samples_of(scene, view.camera, seed);
   return {{directions.width(), directions.height()},
-          trace_rows(traced.rays, scene, view.camera, directions, view.projector,
-                     samples_of(scene, view.camera, seed))};
+          trace_rows(traced.rays, scene, view.camera, directions, view.projector, samples),
+          region_px_of(scene, samples)};
 }
 
 CapturedStack capture_rows(const Scene& scene, int camera, int projector, const ImageRows& rows,
