@@ -43,26 +43,55 @@ ImageRows direct_view_rows(const Scene& scene, const Traced& traced, const View&
           }};
 }
 
-// Rows by which a view is exposed: all of them, or, where surfaces light each other, every sixteenth tile
-// along diagonals, since a row costs many rays then.
-ImageRows exposure_rows(const Scene& scene, const ImageRows& whole) {
-  if (!scene.effects.inter_reflection) return whole;
-  const RowSource thinned = [rows = whole.rows](LightRows& out) {
+}  // namespace
+
+Rig make_rig(const Scene& scene, StageTimes& times) {
+  if (scene.projectors.empty()) throw InputError("the scene has no [[projector]], expected at least one");
+  if (scene.cameras.empty()) throw InputError("the scene has no [[camera]], expected at least one");
+  Rig rig{times.measure("build", [&] { return RayScene(scene); }), {}};
+  times.measure("surface", [&] {
+    for (const Camera& camera : scene.cameras) rig.directions.emplace_back(camera.device);
+  });
+  return rig;
+}
+
+ImageRows rig_rows(const Scene& scene, const Rig& rig, int camera, int projector,
+                   const PixelSamples& samples) {
+  const CameraRays& directions = rig.directions[camera];
+  return {{directions.width(), directions.height()},
+          trace_rows(rig.rays, scene, camera, directions, projector, samples),
+          region_px_of(scene, samples)};
+}
+
+namespace {
+
+// Rows by which a view is exposed: those of pixel centres, or, where surfaces light each other, which costs
+// many rays, those of every sixteenth tile along diagonals.
+ImageRows exposure_rows(const Scene& scene, const Rig& rig, int camera, int projector) {
+  const ImageRows all = rig_rows(scene, rig, camera, projector, {});
+  if (!scene.effects.inter_reflection) return all;
+  const RowSource some = [rows = all.rows](LightRows& out) {
     const PixelRegion& r = out.region;
-    if ((r.x + r.y * 3) / tile_edge % 16 == 0) return rows(out);
+    if ((r.x + 3 * r.y) / tile_edge % 16 == 0) return rows(out);
     out.begin.assign(r.size() + 1, 0);
     out.entries.clear();
     out.ambient_cd_per_m2.assign(r.size(), 0);
   };
-  return {whole.size, thinned, glm::ivec2(tile_edge)};
+  return {all.size, some, glm::ivec2(tile_edge)};
 }
 
 }  // namespace
 
+double saturation_cd_per_m2(const Scene& scene, const Rig& rig, int camera, int projector,
+                            StageTimes& times) {
+  const std::optional<double> fixed = fixed_saturation_cd_per_m2(scene.cameras[camera].sensor);
+  if (fixed) return *fixed;
+  const ImageRows rows = exposure_rows(scene, rig, camera, projector);
+  return times.measure("exposure", [&] { return automatic_saturation_cd_per_m2({&rows, 1}); });
+}
+
 Traced trace(const Scene& scene, StageTimes& times, const Progress& progress) {
-  if (scene.projectors.empty()) throw InputError("the scene has no [[projector]], expected at least one");
-  if (scene.cameras.empty()) throw InputError("the scene has no [[camera]], expected at least one");
-  Traced traced{times.measure("build", [&] { return RayScene(scene); }), {}, {}, {}, {}};
+  Traced traced{make_rig(scene, times), {}, {}, {}};
   const RayScene& rays = traced.rays;
   for (int c = 0; c < int(scene.cameras.size()); ++c) {
     const Camera& camera = scene.cameras[c];
@@ -71,10 +100,8 @@ Traced trace(const Scene& scene, StageTimes& times, const Progress& progress) {
                            camera.device.intrinsics.size.x, camera.device.intrinsics.size.y,
                            camera.device.name, scene.projectors.size()));
     }
-    traced.surfaces.push_back(times.measure("surface", [&] {
-      traced.directions.emplace_back(camera.device);
-      return trace_surface(rays, scene, camera, traced.directions.back());
-    }));
+    traced.surfaces.push_back(
+        times.measure("surface", [&] { return trace_surface(rays, scene, camera, traced.directions[c]); }));
     traced.points_world.push_back(
         times.measure("surface", [&] { return points_world(traced.surfaces[c], scene); }));
     std::vector<LightMap> lights;
@@ -88,7 +115,9 @@ Traced trace(const Scene& scene, StageTimes& times, const Progress& progress) {
   for (View& view : traced.views) {
     const std::optional<double> fixed = fixed_saturation_cd_per_m2(scene.cameras[view.camera].sensor);
     view.saturation_cd_per_m2 = fixed ? *fixed : times.measure("exposure", [&] {
-      const ImageRows rows = exposure_rows(scene, view_rows(scene, traced, view, 0));
+      const ImageRows rows = scene.effects.inter_reflection
+                                 ? exposure_rows(scene, traced, view.camera, view.projector)
+                                 : direct_view_rows(scene, traced, view);
       return automatic_saturation_cd_per_m2({&rows, 1});
     });
   }
@@ -97,11 +126,7 @@ Traced trace(const Scene& scene, StageTimes& times, const Progress& progress) {
 
 ImageRows view_rows(const Scene& scene, const Traced& traced, const View& view, std::uint64_t seed) {
   if (rows_are_direct(scene, view.camera)) return direct_view_rows(scene, traced, view);
-  const CameraRays& directions = traced.directions[view.camera];
-  const PixelSamples samples = samples_of(scene, view.camera, seed);
-  return {{directions.width(), directions.height()},
-          trace_rows(traced.rays, scene, view.camera, directions, view.projector, samples),
-          region_px_of(scene, samples)};
+  return rig_rows(scene, traced, view.camera, view.projector, samples_of(scene, view.camera, seed));
 }
 
 CapturedStack capture_rows(const Scene& scene, int camera, int projector, const ImageRows& rows,

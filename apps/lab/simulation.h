@@ -4,6 +4,7 @@
 
 #include "render/direct_light.h"
 #include "render/image_rows.h"
+#include "render/pixel_samples.h"
 #include "render/ray_scene.h"
 #include "render/surface.h"
 #include "sim/image.h"
@@ -42,11 +43,18 @@ struct View {
   double saturation_cd_per_m2 = 0;
 };
 
-/// What does not depend on the patterns: rays are traced once.
-struct Traced {
+/// A scene ready for rays, and the rays of its cameras.
+struct Rig {
   RayScene rays;
   std::vector<CameraRays> directions;  ///< one per camera
-  std::vector<SurfaceMap> surfaces;    ///< one per camera
+};
+
+/// Throws InputError where the scene has no projector or no camera.
+Rig make_rig(const Scene& scene, StageTimes& times);
+
+/// What does not depend on the patterns: rays are traced once.
+struct Traced : Rig {
+  std::vector<SurfaceMap> surfaces;  ///< one per camera
   std::vector<PixelArray<glm::dvec3>>
       points_world;         ///< one per camera: what each pixel sees, m; NaN where nothing
   std::vector<View> views;  ///< camera by camera, projector by projector
@@ -55,6 +63,14 @@ struct Traced {
 /// Traces every camera's surface and every projector's light on it, and chooses each view's exposure: the
 /// sensor's own, or automatic. Throws InputError where the scene has no projector or no camera.
 Traced trace(const Scene& scene, StageTimes& times, const Progress& progress = {});
+
+/// The rows of one view, with every effect of the scene, traced at each call: no map of the image is held.
+ImageRows rig_rows(const Scene& scene, const Rig& rig, int camera, int projector,
+                   const PixelSamples& samples);
+
+/// The luminance that fills the scale: the sensor's own, or automatic, from the light at pixel centres (at
+/// every sixteenth tile of them with inter-reflection).
+double saturation_cd_per_m2(const Scene& scene, const Rig& rig, int camera, int projector, StageTimes& times);
 
 /// The rows of one view, with every effect of the scene: from the maps where a pixel's row is the direct
 /// light at its centre, else traced anew at each call. `scene` and `traced` must outlive the result. `seed`
