@@ -1,12 +1,16 @@
 // laterna-bench: what the hot stages cost, beside what the machine can do, measured in one run.
 #include "apps/bench/replay_ratio.h"
+#include "apps/bench/scaling.h"
 #include "apps/bench/stage_ratio.h"
 #include "sim/parallel.h"
+#include "sim/safe_write.h"
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <filesystem>
 #include <string>
 
 using namespace laterna;
@@ -16,6 +20,7 @@ namespace {
 struct Options {
   bool json = false;
   int repeats = 9, threads = 2, triangles = 100000;
+  std::string scaling{};
 };
 
 // The instruction set that the clones of the hot loops run on.
@@ -59,6 +64,16 @@ nlohmann::ordered_json measure(const Options& options) {
           {"visibility_seconds", visibility.visibility}};
 }
 
+// Leaves FILE.csv and a plot beside it.
+void write_scaling(const Options& options) {
+  set_thread_count(options.threads);
+  const auto points = time_scaling(bench_scene(options.triangles), std::max(1, options.repeats / 3));
+  std::filesystem::path path = options.scaling;
+  write_file(path, scaling_csv(points));
+  write_file(path.replace_extension(".svg"), scaling_svg(points));
+  fmt::print("{}", scaling_csv(points));
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -70,7 +85,14 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--threads", options.threads)->check(CLI::Range(1, 1024))->capture_default_str();
   app.add_option("--triangles", options.triangles)->check(CLI::Range(2, 10000000))->capture_default_str();
+  app.add_option("--scaling", options.scaling,
+                 "instead, time captures by patterns, samples, bounces and paths: a CSV file, and a plot "
+                 "(.svg) beside it");
   CLI11_PARSE(app, argc, argv);
+  if (!options.scaling.empty()) {
+    write_scaling(options);
+    return 0;
+  }
   const nlohmann::ordered_json result = measure(options);
   if (options.json) {
     fmt::print("{}\n", result.dump());

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 
@@ -30,20 +31,25 @@ Captured capture_all(const Scene& scene, std::uint64_t seed, const std::vector<d
   StageTimes times;
   Captured captured;
   Traced traced = trace(scene, times);
-  double lit = 0, pixels = 0;
+  std::atomic<std::uint64_t> entries = 0;
+  double pixels = 0;
   for (std::size_t i = 0; i < traced.views.size(); ++i) {
     View& view = traced.views[i];
     if (!saturations.empty()) view.saturation_cd_per_m2 = saturations[i];
     captured.saturations.push_back(view.saturation_cd_per_m2);
-    captured.stacks.push_back(capture_view(scene, traced, view, seed, times));
+    ImageRows rows = view_rows(scene, traced, view, seed);
+    rows.rows = [&entries, source = rows.rows](LightRows& out) {
+      source(out), entries += out.entries.size();
+    };
+    captured.stacks.push_back(
+        capture_rows(scene, view.camera, view.projector, rows, view.saturation_cd_per_m2, seed, times));
     if (!scene.effects.slide) {
       captured.maps.push_back(decode_gray(captured.stacks.back(),
                                           input_size(scene.effects, scene.projectors[view.projector]), {}));
     }
-    for (std::size_t p = 0; p < view.light.why.values.size(); ++p) lit += view.light.lit(p);
-    pixels += double(view.light.why.values.size());
+    pixels += double(rows.size.x) * rows.size.y;
   }
-  captured.entries_per_pixel = pixels > 0 ? lit / pixels : 0;
+  captured.entries_per_pixel = pixels > 0 ? double(entries) / pixels : 0;
   captured.seconds = times.total();
   return captured;
 }
