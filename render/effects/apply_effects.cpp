@@ -3,6 +3,7 @@
 #include "render/effects/attenuation.h"
 #include "render/effects/gloss.h"
 #include "render/effects/normal_map.h"
+#include "render/effects/projector_defocus.h"
 #include "render/effects/response.h"
 #include "render/effects/scaler.h"
 #include "render/effects/slide.h"
@@ -45,6 +46,7 @@ void weigh_light(LightMap& light, const SurfaceMap& surface, const RayScene& ray
   if (on.attenuation) apply_attenuation(light, geometry, projector);
   if (on.spotlight) apply_spotlight(light, geometry, projector);
   if (on.projector_vignetting) apply_projector_vignetting(light, geometry, projector);
+  if (on.projector_defocus) apply_projector_defocus(light, geometry, projector);
 }
 
 }  // namespace
