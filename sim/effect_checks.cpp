@@ -94,6 +94,26 @@ void check_slide(const SceneSpec& scene) {
     throw InputError("[effects]: slide is on, but [patterns] has no key file, expected a picture");
 }
 
+void check_inter_reflection(const SceneSpec& scene) {
+  if (!scene.effects.inter_reflection) return;
+  const auto [bounces, paths] = scene.inter_reflection;
+  if (bounces < 1)
+    throw InputError(
+        "[effects]: inter_reflection is on, but [inter_reflection] has no bounces, expected at least 1");
+  const Effects& on = scene.effects;
+  const bool spread = on.antialiasing || on.camera_defocus || on.diffraction;
+  for (const CameraSpec& camera : scene.cameras) {
+    const long samples = spread ? camera.samples_per_pixel : 1;
+    const long entries = samples * bounces * paths;
+    if (entries > most_entries_per_pixel) {
+      throw InputError(
+          fmt::format("[inter_reflection]: {} samples per pixel × {} paths × {} bounces = {}, expected at "
+                      "most {}",
+                      samples, paths, bounces, entries, most_entries_per_pixel));
+    }
+  }
+}
+
 }  // namespace
 
 std::array<glm::dvec2, 4> keystone_corners(const Scaler& scaler) {
@@ -149,6 +169,7 @@ void check(const Gloss& gloss, double albedo) {
 void check_effects(const SceneSpec& scene) {
   check_projector_effects(scene);
   check_slide(scene);
+  check_inter_reflection(scene);
   check_optics(scene);
   const Effects& on = scene.effects;
   expect_given(on.camera_vignetting, "camera_vignetting", "camera", "vignetting", scene.cameras,

@@ -11,8 +11,8 @@ void check(const Scaler& scaler);               ///< keystone: 8 numbers, corner
 void check(const ProjectorEffects& effects);    ///< these two, the response, the attenuation
 void check(const Gloss& gloss, double albedo);  ///< what its model needs; albedo + strength ≤ 1
 
-/// A switch that is on has what it needs on at least one noun; a slide's switch, kind and file go together.
-/// Throws InputError that names the missing key.
+/// A switch that is on has what it needs on at least one noun; a slide's switch, kind and file go together;
+/// inter-reflection has bounces, and rows that fit in memory. Throws InputError that names the missing key.
 void check_effects(const SceneSpec& scene);
 
 /// The quadrilateral of a scaler, upper left corner first; the panel's corners where no keystone is given.

@@ -84,6 +84,13 @@ struct Solid {
   bool operator==(const Solid&) const = default;
 };
 
+/// Light that goes from surface to surface before it comes to the camera.
+struct InterReflection {
+  int bounces = 0;  ///< the most surfaces on the way, that which the camera sees not counted
+  int paths = 16;   ///< for each camera sample
+  bool operator==(const InterReflection&) const = default;
+};
+
 struct MeshEffects {
   Gloss gloss{};
   Solid solid{};

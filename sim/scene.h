@@ -72,6 +72,7 @@ struct Scene {
   double ambient_lx = 0;  ///< uniform illuminance on every surface, from everywhere
   PatternKind patterns = PatternKind::gray;
   Effects effects{};
+  InterReflection inter_reflection{};
   std::shared_ptr<const Slide> slide{};  ///< where effects.slide is on
 };
 

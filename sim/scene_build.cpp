@@ -240,6 +240,7 @@ Scene build_scene(const SceneSpec& spec, const std::filesystem::path& folder) {
               .ambient_lx = spec.ambient_lx,
               .patterns = spec.patterns.kind,
               .effects = spec.effects,
+              .inter_reflection = spec.inter_reflection,
               .slide = {}};
   const SceneSpec named = with_names(spec);
   Maps maps;

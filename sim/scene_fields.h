@@ -583,6 +583,21 @@ void describe(Visitor& visit, PatternsSpec& patterns) {
 }
 
 template <class Visitor>
+void describe(Visitor& visit, InterReflection& reflection) {
+  visit(Field{.key = "bounces",
+              .sentence = "How many surfaces light visits before the one that the camera sees.",
+              .low = 0,
+              .high = most_bounces},
+        reflection.bounces);
+  visit(Field{.key = "paths",
+              .sentence = "How many ways back are followed from each camera sample; noise falls as "
+                          "1/√paths.",
+              .low = 1,
+              .high = most_paths},
+        reflection.paths);
+}
+
+template <class Visitor>
 void describe(Visitor& visit, SceneSpec& scene) {
   visit(Field{.key = "name", .sentence = "What reports call the scene."}, scene.name);
   visit(Field{.key = "ambient_lx",
@@ -595,6 +610,8 @@ void describe(Visitor& visit, SceneSpec& scene) {
   visit(
       Field{.key = "effects", .sentence = "One switch for each effect; what it needs stands with its noun."},
       scene.effects);
+  visit(Field{.key = "inter_reflection", .sentence = "Light from surface to surface."},
+        scene.inter_reflection);
   visit(Field{.key = "mesh", .sentence = "A surface; at least one."}, scene.meshes);
   visit(Field{.key = "projector", .sentence = "A device that emits."}, scene.projectors);
   visit(Field{.key = "camera", .sentence = "A device that measures."}, scene.cameras);

@@ -93,6 +93,7 @@ struct SceneSpec {
   double ambient_lx = 0;
   PatternsSpec patterns{};
   Effects effects{};
+  InterReflection inter_reflection{};
   std::vector<MeshSpec> meshes{};
   std::vector<ProjectorSpec> projectors{};
   std::vector<CameraSpec> cameras{};

@@ -1,16 +1,20 @@
 // laterna-bench: what the hot stages cost, beside what the machine can do, measured in one run.
 #include "apps/bench/picture_ratio.h"
 #include "apps/bench/replay_ratio.h"
+#include "apps/bench/scaling.h"
 #include "apps/bench/stage_ratio.h"
 #include "sim/error.h"
 #include "sim/instruction_sets.h"
 #include "sim/parallel.h"
+#include "sim/safe_write.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <filesystem>
 #include <string>
 
 using namespace laterna;
@@ -20,6 +24,7 @@ namespace {
 struct Options {
   bool json = false;
   int repeats = 9, threads = 2, triangles = 100000;
+  std::string scaling{};
   std::string isa;
 };
 
@@ -56,6 +61,16 @@ nlohmann::ordered_json measure(const Options& options) {
           {"visibility_seconds", visibility.visibility}};
 }
 
+// Leaves FILE.csv and a plot beside it.
+void write_scaling(const Options& options) {
+  set_thread_count(options.threads);
+  const auto points = time_scaling(bench_scene(options.triangles), std::max(1, options.repeats / 3));
+  std::filesystem::path path = options.scaling;
+  write_file(path, scaling_csv(points));
+  write_file(path.replace_extension(".svg"), scaling_svg(points));
+  fmt::print("{}", scaling_csv(points));
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -70,9 +85,16 @@ int main(int argc, char** argv) {
   app.add_option(
       "--isa", options.isa,
       fmt::format("use no more than this instruction set: {}", fmt::join(instruction_set_names(), ", ")));
+  app.add_option("--scaling", options.scaling,
+                 "instead, time captures by patterns, samples, bounces and paths: a CSV file, and a plot "
+                 "(.svg) beside it");
   CLI11_PARSE(app, argc, argv);
   nlohmann::ordered_json result;
   try {
+    if (!options.scaling.empty()) {
+      write_scaling(options);
+      return 0;
+    }
     result = measure(options);
   } catch (const InputError& error) {
     fmt::print(stderr, "laterna-bench: {}\n", error.what());

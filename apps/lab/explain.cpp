@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 
@@ -32,17 +33,22 @@ Captured capture_once(const Scene& scene, std::uint64_t seed, const std::vector<
   StageTimes times;
   Captured captured;
   Traced traced = trace(scene, times);
-  double entries = 0, pixels = 0;
+  std::atomic<std::uint64_t> entries = 0;
+  double pixels = 0;
   for (std::size_t i = 0; i < traced.views.size(); ++i) {
     View& view = traced.views[i];
     if (!saturations.empty()) view.saturation_cd_per_m2 = saturations[i];
     captured.saturations.push_back(view.saturation_cd_per_m2);
-    captured.stacks.push_back(capture_view(scene, traced, view, seed, times));
     captured.projectors.push_back(view.projector);
-    entries += mean_entries(view_rows(scene, traced, view, seed)) * double(view.light.why.values.size());
-    pixels += double(view.light.why.values.size());
+    ImageRows rows = view_rows(scene, traced, view, seed);
+    rows.rows = [&entries, source = rows.rows](LightRows& out) {
+      source(out), entries += out.entries.size();
+    };
+    captured.stacks.push_back(
+        capture_rows(scene, view.camera, view.projector, rows, view.saturation_cd_per_m2, seed, times));
+    pixels += double(rows.size.x) * rows.size.y;
   }
-  captured.entries_per_pixel = pixels > 0 ? entries / pixels : 0;
+  captured.entries_per_pixel = pixels > 0 ? double(entries) / pixels : 0;
   captured.seconds = times.total();
   return captured;
 }

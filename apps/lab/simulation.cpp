@@ -59,17 +59,35 @@ ImageRows rig_rows(const Scene& scene, const Rig& rig, int camera, int projector
                    const PixelSamples& samples) {
   const CameraRays& directions = rig.directions[camera];
   return {{directions.width(), directions.height()},
-          trace_rows(rig.rays, scene, camera, directions, projector, samples)};
+          trace_rows(rig.rays, scene, camera, directions, projector, samples),
+          region_px_of(scene, samples)};
 }
+
+namespace {
+
+// Rows by which a view is exposed: those of pixel centres, or, where surfaces light each other, which costs
+// many rays, those of every sixteenth tile along diagonals.
+ImageRows exposure_rows(const Scene& scene, const Rig& rig, int camera, int projector) {
+  const ImageRows all = rig_rows(scene, rig, camera, projector, {});
+  if (!scene.effects.inter_reflection) return all;
+  const RowSource some = [rows = all.rows](LightRows& out) {
+    const PixelRegion& r = out.region;
+    if ((r.x + 3 * r.y) / tile_edge % 16 == 0) return rows(out);
+    out.begin.assign(r.size() + 1, 0);
+    out.entries.clear();
+    out.ambient_cd_per_m2.assign(r.size(), 0);
+  };
+  return {all.size, some, glm::ivec2(tile_edge)};
+}
+
+}  // namespace
 
 double saturation_cd_per_m2(const Scene& scene, const Rig& rig, int camera, int projector,
                             StageTimes& times) {
   const std::optional<double> fixed = fixed_saturation_cd_per_m2(scene.cameras[camera].sensor);
   if (fixed) return *fixed;
-  const CameraRays& directions = rig.directions[camera];
-  const ImageRows direct{{directions.width(), directions.height()},
-                         trace_rows(rig.rays, scene, camera, directions, projector)};
-  return times.measure("exposure", [&] { return automatic_saturation_cd_per_m2({&direct, 1}); });
+  const ImageRows rows = exposure_rows(scene, rig, camera, projector);
+  return times.measure("exposure", [&] { return automatic_saturation_cd_per_m2({&rows, 1}); });
 }
 
 Traced trace(const Scene& scene, StageTimes& times, const Progress& progress) {
@@ -96,9 +114,11 @@ Traced trace(const Scene& scene, StageTimes& times, const Progress& progress) {
   }
   for (View& view : traced.views) {
     const std::optional<double> fixed = fixed_saturation_cd_per_m2(scene.cameras[view.camera].sensor);
-    const ImageRows direct = direct_view_rows(scene, traced, view);
     view.saturation_cd_per_m2 = fixed ? *fixed : times.measure("exposure", [&] {
-      return automatic_saturation_cd_per_m2({&direct, 1});
+      const ImageRows rows = scene.effects.inter_reflection
+                                 ? exposure_rows(scene, traced, view.camera, view.projector)
+                                 : direct_view_rows(scene, traced, view);
+      return automatic_saturation_cd_per_m2({&rows, 1});
     });
   }
   return traced;

@@ -68,7 +68,8 @@ Traced trace(const Scene& scene, StageTimes& times, const Progress& progress = {
 ImageRows rig_rows(const Scene& scene, const Rig& rig, int camera, int projector,
                    const PixelSamples& samples);
 
-/// The luminance that fills the scale: the sensor's own, or automatic, from direct light at pixel centres.
+/// The luminance that fills the scale: the sensor's own, or automatic, from the light at pixel centres (at
+/// every sixteenth tile of them with inter-reflection).
 double saturation_cd_per_m2(const Scene& scene, const Rig& rig, int camera, int projector, StageTimes& times);
 
 /// The rows of one view, with every effect of the scene: from the maps where a pixel's row is the direct

@@ -24,6 +24,9 @@ void apply_effects(SurfaceMap& surface, std::span<LightMap> lights, const RaySce
 void apply_surface_effects(SurfaceMap& surface, const Scene& scene);
 void apply_light_effects(LightMap& light, const SurfaceMap& surface, const RayScene& rays, const Scene& scene,
                          const Projector& projector, const Camera& camera);
+/// The same for light that goes on diffusely, to no one camera: without gloss.
+void apply_light_effects(LightMap& light, const SurfaceMap& surface, const RayScene& rays, const Scene& scene,
+                         const Projector& projector);
 void apply_camera_effects(SurfaceMap& surface, const RayScene& rays, const Scene& scene,
                           const Camera& camera);
 

@@ -79,6 +79,25 @@ TEST(EffectChecks, ASlidesThreeKeysGoTogether) {
   EXPECT_THAT(error_of(mesh + slide + switch_on("slide")), HasSubstr("[patterns] has no key file"));
 }
 
+TEST(EffectChecks, InterReflectionHasBouncesAndRowsThatFitInMemory) {
+  const auto error = [&](const std::string& numbers) {
+    return error_of(mesh + camera + switch_on("inter_reflection") + "[inter_reflection]\n" + numbers);
+  };
+  EXPECT_THAT(error("paths = 8\n"), HasSubstr("[inter_reflection] has no bounces, expected at least 1"));
+  EXPECT_THAT(error("bounces = 65\n"), HasSubstr("bounces"));
+  EXPECT_THAT(error("bounces = 1\npaths = 0\n"), HasSubstr("paths"));
+  EXPECT_THAT(error("bounces = 64\npaths = 4097\n"), HasSubstr("paths"));
+  EXPECT_EQ(parse_scene(mesh + camera + switch_on("inter_reflection") +
+                            "[inter_reflection]\nbounces = 64\npaths = 4096\n",
+                        "s")
+                .inter_reflection,
+            (InterReflection{64, 4096}));
+  const std::string sampled = camera + "samples_per_pixel = 2\n";
+  EXPECT_THAT(error_of(mesh + sampled + switch_on("inter_reflection") +
+                       "antialiasing = true\n[inter_reflection]\nbounces = 64\npaths = 4096\n"),
+              HasSubstr("2 samples per pixel × 4096 paths × 64 bounces = 524288, expected at most 262144"));
+}
+
 TEST(EffectChecks, ParametersThatMakeNoSense) {
   const auto projector_error = [&](const std::string& line) { return error_of(mesh + projector + line); };
   EXPECT_THAT(projector_error("vignetting = { model = \"polynomial\" }\n"),
@@ -108,6 +127,7 @@ TEST(EffectChecks, EveryKeySurvivesWritingAndReading) {
   EXPECT_EQ(names.size(), all_effects.size());
   EXPECT_EQ(defaults_on, 7);
   scene.patterns = {PatternKind::slide, "slide.png", Encoding::linear};
+  scene.inter_reflection = {3, 20};
   scene.meshes[0].albedo = 0.5;
   scene.meshes[0].effects = {{GlossModel::ggx, 0.25, {}, 0.3}, {SolidKind::noise, 0.7, 0.1}, "n.png"};
   scene.cameras[0].vignetting = {VignettingModel::map, {}, "v.exr"};
