@@ -219,7 +219,8 @@ PixelSamples samples_of(const Scene& scene, int camera, std::uint64_t seed) {
   const Camera& c = scene.cameras[camera];
   const bool antialiasing = scene.effects.antialiasing;
   const bool spread = antialiasing || defocuses(scene, c) || diffracts(scene, c);
-  return {spread ? c.samples_per_pixel : 1, seed, antialiasing ? active_side_px(scene.effects, c.optics) : 0};
+  return {spread ? c.samples_per_pixel : 1, seed,
+          antialiasing || !spread ? active_side_px(scene.effects, c.optics) : 0};
 }
 
 std::vector<IdleProjector> idle_projectors(const Scene& scene, int projector) {

@@ -20,7 +20,7 @@ RowSource trace_rows(const RayScene& rays, const Scene& scene, int camera, const
                      int projector, const PixelSamples& samples = {});
 
 /// The samples that the scene asks for: samples_per_pixel with antialiasing, or where the camera's lens
-/// blurs; else 1. Without antialiasing they lie at the pixel's centre.
+/// blurs; else 1. Where only the lens blurs they lie at the pixel's centre.
 PixelSamples samples_of(const Scene& scene, int camera, std::uint64_t seed);
 
 /// What a camera sees beside one projector's pictures: the others that show some light as black.

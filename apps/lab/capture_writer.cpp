@@ -1,5 +1,6 @@
 #include "apps/lab/capture_writer.h"
 
+#include "apps/lab/capture_warnings.h"
 #include "apps/lab/matrices.h"
 #include "apps/lab/truth_picture.h"
 #include "render/effects/scaler.h"
@@ -113,13 +114,17 @@ CaptureSequence write_view(const Scene& scene, const Rig& rig, int camera, int p
 
 }  // namespace
 
-void write_capture(const SceneSpec& spec, const Scene& scene, const std::filesystem::path& folder,
-                   const std::filesystem::path& target, const CaptureOptions& options, StageTimes& times,
-                   const Progress& progress) {
+std::vector<std::string> write_capture(const SceneSpec& spec, const Scene& scene,
+                                       const std::filesystem::path& folder,
+                                       const std::filesystem::path& target, const CaptureOptions& options,
+                                       StageTimes& times, const Progress& progress) {
   check_format(options.format, scene);
   PendingFolder pending(target);
   const std::filesystem::path root = pending.path();
   const Rig rig = make_rig(scene, times);
+  const std::vector<std::string> warnings = capture_warnings(scene, rig);
+  for (const std::string& warning : warnings)
+    if (progress) progress(warning);
   write_self_contained(spec, scene, folder, root);
   write_file(root / "matrices.json", matrices_json(scene).dump(2) + "\n");
   CaptureManifest manifest{"scene.toml", options.seed, "matrices.json", {}};
@@ -129,6 +134,7 @@ void write_capture(const SceneSpec& spec, const Scene& scene, const std::filesys
       manifest.sequences.push_back(write_view(scene, rig, camera, projector, root, options, times, progress));
   write_file(root / "manifest.json", manifest_json(manifest));
   pending.commit();
+  return warnings;
 }
 
 }  // namespace laterna

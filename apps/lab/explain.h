@@ -23,8 +23,9 @@ struct EffectCost {
 };
 
 /// One entry per switch of all_effects, in its order. A switch that is off and whose parameters the scene
-/// does not give changes nothing. `scene` is built from `spec`.
-std::vector<EffectCost> explain_effects(const SceneSpec& spec, const Scene& scene, std::uint64_t seed,
+/// does not give changes nothing. `scene` is built from `spec` in `folder`.
+std::vector<EffectCost> explain_effects(const SceneSpec& spec, const Scene& scene,
+                                        const std::filesystem::path& folder, std::uint64_t seed,
                                         const Progress& progress = {});
 
 /// A table for people.

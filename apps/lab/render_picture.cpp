@@ -48,7 +48,10 @@ struct Selected {
   ImageRows rows(const RenderOptions& options) const {
     PixelSamples samples = samples_of(scene, camera, options.seed);
     if (options.samples_per_pixel > 0) samples.count = options.samples_per_pixel;
-    if (options.kind == RenderKind::dual) samples.count = std::max(samples.count, dual_samples);
+    if (options.kind == RenderKind::dual) {
+      samples.count = std::max(samples.count, dual_samples);
+      if (samples.side_px == 0) samples.side_px = 1;
+    }
     return rig_rows(scene, rig, camera, projector, samples);
   }
 };

@@ -55,6 +55,28 @@ Rig make_rig(const Scene& scene, StageTimes& times) {
   return rig;
 }
 
+StripTracer::StripTracer(const Scene& scene, const Rig& rig, int camera, int projector)
+    : scene_(scene),
+      rig_(rig),
+      camera_(camera),
+      projector_(projector),
+      eye_(make_camera_view(rig.rays, scene, scene.cameras[camera])),
+      source_(make_projector_view(rig.rays, scene, scene.projectors[projector])) {}
+
+int StripTracer::count() const { return (rig_.directions[camera_].height() + tile_edge - 1) / tile_edge; }
+
+Strip StripTracer::trace(int tile_row) const {
+  const CameraRays& directions = rig_.directions[camera_];
+  const int y = tile_row * tile_edge, height = std::min(tile_edge, directions.height() - y);
+  Strip strip{make_surface_map({0, y, directions.width(), height}),
+              make_light_map(directions.width(), height)};
+  trace_surface_tiles(rig_.rays, eye_, directions, 0, strip.surface);
+  trace_light_tiles(rig_.rays, source_, strip.surface, 0, strip.light);
+  apply_light_effects(strip.light, strip.surface, rig_.rays, scene_, scene_.projectors[projector_],
+                      scene_.cameras[camera_]);
+  return strip;
+}
+
 ImageRows rig_rows(const Scene& scene, const Rig& rig, int camera, int projector,
                    const PixelSamples& samples) {
   const CameraRays& directions = rig.directions[camera];
@@ -115,9 +137,9 @@ Traced trace(const Scene& scene, StageTimes& times, const Progress& progress) {
   for (View& view : traced.views) {
     const std::optional<double> fixed = fixed_saturation_cd_per_m2(scene.cameras[view.camera].sensor);
     view.saturation_cd_per_m2 = fixed ? *fixed : times.measure("exposure", [&] {
-      const ImageRows rows = scene.effects.inter_reflection
-                                 ? exposure_rows(scene, traced, view.camera, view.projector)
-                                 : direct_view_rows(scene, traced, view);
+      const ImageRows rows = rows_are_direct(scene, view.camera)
+                                 ? direct_view_rows(scene, traced, view)
+                                 : exposure_rows(scene, traced, view.camera, view.projector);
       return automatic_saturation_cd_per_m2({&rows, 1});
     });
   }

@@ -64,6 +64,27 @@ struct Traced : Rig {
 /// sensor's own, or automatic. Throws InputError where the scene has no projector or no camera.
 Traced trace(const Scene& scene, StageTimes& times, const Progress& progress = {});
 
+/// What a row of tiles of a camera's image sees, and one projector's light on it, at pixel centres.
+struct Strip {
+  SurfaceMap surface;
+  LightMap light;
+};
+
+/// Traces one view strip by strip, so that no map of the image is held. What it is made from must outlive it.
+class StripTracer {
+ public:
+  StripTracer(const Scene& scene, const Rig& rig, int camera, int projector);
+  int count() const;  ///< of rows of tiles
+  Strip trace(int tile_row) const;
+
+ private:
+  const Scene& scene_;
+  const Rig& rig_;
+  int camera_, projector_;
+  CameraView eye_;
+  ProjectorView source_;
+};
+
 /// The rows of one view, with every effect of the scene, traced at each call: no map of the image is held.
 ImageRows rig_rows(const Scene& scene, const Rig& rig, int camera, int projector,
                    const PixelSamples& samples);
