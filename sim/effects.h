@@ -12,6 +12,7 @@ struct Effects {
   bool scaler = false, spotlight = false, attenuation = false, slide = false;
   bool gloss = false, normal_map = false, solid_albedo = false;
   bool response = false, black_level = false;
+  bool displacement = false;
   bool operator==(const Effects&) const = default;
 };
 
@@ -23,7 +24,7 @@ struct EffectSwitch {
   bool Effects::*on;
 };
 
-inline constexpr std::array<EffectSwitch, 17> all_effects{{
+inline constexpr std::array<EffectSwitch, 18> all_effects{{
     {"shadow", "rows", "What stands between a point and the projector takes its light.", &Effects::shadow},
     {"back_face", "rows",
      "A surface is lit and seen on its front only. Off: both sides, whichever of them each device is on.",
@@ -47,6 +48,7 @@ inline constexpr std::array<EffectSwitch, 17> all_effects{{
     {"slide", "pattern", "Needs `kind = \"slide\"` and `file` of [patterns].", &Effects::slide},
     {"gloss", "weight", "Needs `gloss` of a [[mesh]].", &Effects::gloss},
     {"normal_map", "weight", "Needs `normal_map` of a [[mesh]].", &Effects::normal_map},
+    {"displacement", "surface", "Needs `displacement_map` of a [[mesh]].", &Effects::displacement},
     {"solid_albedo", "surface", "Needs `solid` of a [[mesh]].", &Effects::solid_albedo},
     {"response", "pattern", "Needs `response_exponent` or `response_table` of a [[projector]].",
      &Effects::response},

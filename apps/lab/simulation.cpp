@@ -1,6 +1,7 @@
 #include "apps/lab/simulation.h"
 
 #include "render/effects/apply_effects.h"
+#include "render/effects/displacement.h"
 #include "render/exposure.h"
 #include "render/replay.h"
 #include "sim/error.h"
@@ -27,7 +28,10 @@ double StageTimes::total() const {
   return sum;
 }
 
-Traced trace(const Scene& scene, StageTimes& times, const Progress& progress) {
+Traced trace(const Scene& given, StageTimes& times, const Progress& progress) {
+  std::optional<Scene> storage;
+  times.measure("build", [&] { displaced(given, storage); });
+  const Scene& scene = storage ? *storage : given;
   if (scene.projectors.empty()) throw InputError("the scene has no [[projector]], expected at least one");
   if (scene.cameras.empty()) throw InputError("the scene has no [[camera]], expected at least one");
   Traced traced{times.measure("build", [&] { return RayScene(scene); }), {}, {}, {}};
