@@ -218,26 +218,4 @@ void expose(const Exposure& exposure, std::uint32_t first_pixel, int pictures, c
   expose_block(exposure, first_pixel, pictures, levels, dn);
 }
 
-double automatic_saturation_cd_per_m2(const SurfaceMap& surface, std::span<const LightMap> lights,
-                                      double ambient_lx) {
-  constexpr double percentile = 0.999, share_of_scale = 0.8;
-  const std::size_t pixels = surface.albedo.values.size();
-  std::vector<double> seen;
-  for (const LightMap& light : lights) {
-    for (std::size_t p = 0; p < pixels; ++p) {
-      if (light.lit(p))
-        seen.push_back(luminance_cd_per_m2(surface.albedo.values[p], light.white_lx.values[p], ambient_lx));
-    }
-  }
-  const bool dark = seen.empty();
-  for (std::size_t p = 0; dark && ambient_lx > 0 && p < pixels; ++p) {
-    if (surface.hit(p)) seen.push_back(luminance_cd_per_m2(surface.albedo.values[p], 0, ambient_lx));
-  }
-  if (seen.empty()) return 1;
-  const auto rank = static_cast<std::size_t>(std::ceil(percentile * double(seen.size())));
-  const auto at = seen.begin() + std::ptrdiff_t(std::max<std::size_t>(rank, 1) - 1);
-  std::nth_element(seen.begin(), at, seen.end());
-  return *at > 0 ? *at / share_of_scale : 1;
-}
-
 }  // namespace laterna

@@ -120,6 +120,8 @@ void check_effects(const SceneSpec& scene) {
   const Effects& on = scene.effects;
   expect_given(on.camera_vignetting, "camera_vignetting", "camera", "vignetting", scene.cameras,
                [](const CameraSpec& c) { return c.vignetting.model != VignettingModel::none; });
+  expect_given(on.antialiasing, "antialiasing", "camera", "samples_per_pixel above 1", scene.cameras,
+               [](const CameraSpec& c) { return c.samples_per_pixel > 1; });
   expect_given(on.gloss, "gloss", "mesh", "gloss", scene.meshes,
                [](const MeshSpec& m) { return m.effects.gloss.model != GlossModel::none; });
   expect_given(on.displacement, "displacement", "mesh", "displacement_map", scene.meshes,

@@ -12,6 +12,7 @@ struct Effects {
   bool scaler = false, spotlight = false, attenuation = false, slide = false;
   bool gloss = false, normal_map = false, solid_albedo = false;
   bool response = false, black_level = false;
+  bool antialiasing = false;
   bool displacement = false;
   bool operator==(const Effects&) const = default;
 };
@@ -24,7 +25,7 @@ struct EffectSwitch {
   bool Effects::*on;
 };
 
-inline constexpr std::array<EffectSwitch, 18> all_effects{{
+inline constexpr auto all_effects = std::to_array<EffectSwitch>({
     {"shadow", "rows", "What stands between a point and the projector takes its light.", &Effects::shadow},
     {"back_face", "rows",
      "A surface is lit and seen on its front only. Off: both sides, whichever of them each device is on.",
@@ -53,7 +54,8 @@ inline constexpr std::array<EffectSwitch, 18> all_effects{{
     {"response", "pattern", "Needs `response_exponent` or `response_table` of a [[projector]].",
      &Effects::response},
     {"black_level", "pattern", "Needs `black_level` of a [[projector]].", &Effects::black_level},
-}};
+    {"antialiasing", "rays", "Needs `samples_per_pixel` above 1 of a [[camera]].", &Effects::antialiasing},
+});
 
 /// Whether the panel shows anything but the pattern sequence as it stands.
 inline bool edits_patterns(const Effects& e) {

@@ -54,6 +54,7 @@ struct Camera {
   Sensor sensor;
   Vignetting vignetting{};
   std::shared_ptr<const Image<float>> vignetting_map{};  ///< empty where `vignetting` has none
+  int samples_per_pixel = 1;                             ///< rays, with antialiasing
 };
 
 enum class PatternKind { gray, slide };  ///< slide: one picture from a file

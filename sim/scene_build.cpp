@@ -262,7 +262,8 @@ Scene build_scene(const SceneSpec& spec, const std::filesystem::path& folder) {
     const std::string what = heading("camera", c.device.name);
     check(c);
     scene.cameras.push_back({device_of(c.device, folder, what), c.sensor, c.vignetting,
-                             about(what, [&] { return vignetting_map(c.vignetting, folder); })});
+                             about(what, [&] { return vignetting_map(c.vignetting, folder); }),
+                             c.samples_per_pixel});
   }
   if (spec.effects.slide) {
     scene.slide = std::make_shared<const Slide>(

@@ -543,6 +543,11 @@ void describe(Visitor& visit, CameraSpec& camera) {
   visit(Field{.key = "sensor", .sentence = "How light becomes digital numbers."}, camera.sensor);
   visit(Field{.key = "vignetting", .sentence = "What share of the light the lens passes."},
         camera.vignetting);
+  visit(Field{.key = "samples_per_pixel",
+              .sentence = "With `antialiasing`: a pixel is the mean of this many rays, spread over its area.",
+              .low = 1,
+              .high = most_samples_per_pixel},
+        camera.samples_per_pixel);
 }
 
 template <class Visitor>

@@ -21,9 +21,4 @@ void write_capture(const SceneSpec& spec, const Scene& scene, const std::filesys
                    const std::filesystem::path& target, const CaptureOptions& options, StageTimes& times,
                    const Progress& progress = {});
 
-/// The truth of one view, one layer each, float: projector.u, projector.v (px, NaN where the point is behind
-/// the projector or nothing is seen), projector.lit (1 or 0), depth.m (axial, NaN where nothing is seen),
-/// normal.x, .y, .z (world), world.x, .y, .z (m), object.id (-1: none).
-void write_truth(const std::filesystem::path& path, const Traced& traced, const View& view);
-
 }  // namespace laterna

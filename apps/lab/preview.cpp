@@ -1,7 +1,5 @@
 #include "apps/lab/preview.h"
 
-#include "render/effects/displacement.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -149,8 +147,7 @@ void draw_frustum(Canvas& canvas, glm::ivec2 corner, const WorldProjection& eye,
 
 void draw_outside(Canvas& canvas, const Scene& given, const Traced& traced, glm::ivec2 corner,
                   glm::ivec2 size) {
-  std::optional<Scene> storage;
-  const Scene& scene = displaced(given, storage);
+  const Scene& scene = traced.as_seen(given);
   const Box seen = seen_box(scene, traced);
   const Camera eye = observer(scene, seen, size);
   const SurfaceMap surface = trace_surface(traced.rays, scene, eye);

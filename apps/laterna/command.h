@@ -30,6 +30,7 @@ void add_project(CLI::App& app, Common& common);
 void add_preview(CLI::App& app, Common& common);
 void add_patterns(CLI::App& app, Common& common);
 void add_capture(CLI::App& app, Common& common);
+void add_render(CLI::App& app, Common& common);
 void add_decode(CLI::App& app, Common& common);
 void add_calibrate(CLI::App& app, Common& common);
 void add_verify(CLI::App& app, Common& common);

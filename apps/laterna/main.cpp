@@ -51,7 +51,7 @@ int run(int argc, char** argv) {
   app.add_option("--seed", common.seed, "Seed of everything random; the same seed gives the same bits");
   app.add_flag("--json", common.json, "Prints JSON for machines on standard output, and nothing else there");
   for (const auto add : {add_new, add_check, add_info, add_project, add_preview, add_patterns, add_capture,
-                         add_decode, add_calibrate, add_verify, add_roundtrip}) {
+                         add_render, add_decode, add_calibrate, add_verify, add_roundtrip}) {
     add(app, common);
   }
   app.parse_complete_callback([&] { set_thread_count(common.threads); });

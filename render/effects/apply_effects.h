@@ -18,6 +18,14 @@ namespace laterna {
 void apply_effects(SurfaceMap& surface, std::span<LightMap> lights, const RayScene& rays, const Scene& scene,
                    const Camera& camera);
 
+/// The three parts of that, for maps of any region: what acts on the surface, on one projector's light, and
+/// last on what the camera's lens lets through.
+void apply_surface_effects(SurfaceMap& surface, const Scene& scene);
+void apply_light_effects(LightMap& light, const SurfaceMap& surface, const RayScene& rays, const Scene& scene,
+                         const Projector& projector, const Camera& camera);
+void apply_camera_effects(SurfaceMap& surface, const RayScene& rays, const Scene& scene,
+                          const Camera& camera);
+
 /// What edits patterns: scaler (after which the stack has the panel's size), response, black level, veiling
 /// glare. What is off leaves every bit as it was.
 void apply_effects(PatternStack& patterns, const Scene& scene, const Projector& projector);

@@ -88,6 +88,7 @@ TEST(EffectChecks, EveryKeySurvivesWritingAndReading) {
   scene.meshes[0].effects = {
       {GlossModel::ggx, 0.25, {}, 0.3}, {SolidKind::noise, 0.7, 0.1}, "n.png", "h.png", -0.5, 2.5};
   scene.cameras[0].vignetting = {VignettingModel::map, {}, "v.exr"};
+  scene.cameras[0].samples_per_pixel = 9;
   scene.projectors[0].effects = {
       .vignetting = {VignettingModel::polynomial, {-0.1, 0.01}, ""},
       .spotlight = {20.0, 3, 0.5},
