@@ -48,7 +48,7 @@ TEST(LabDisplacement, TheTruthIsThatOfTheDisplacedSurface) {
     const ExrLayers truth = read_exr_layers(folder / "truth.exr");
     const auto depth = std::find(truth.names.begin(), truth.names.end(), "depth.m") - truth.names.begin();
     EXPECT_THAT(truth.planes.at(depth).values, ::testing::Each(float(depth_m)));
-    EXPECT_GT(preview_picture(scene, traced).rows, 0);  // shades the refined mesh's triangles
+    EXPECT_GT(preview_picture(scene, traced).width, 0);  // shades the refined mesh's triangles
     const CapturedStack stack = capture_view(scene, traced, traced.views[0], 1, times);
     EXPECT_EQ(std::get<ImageStack<std::uint8_t>>(stack).count, 26);
   }
