@@ -35,7 +35,8 @@ struct Work {
   void run() {
     is_worker = true;
     try {
-      for (std::size_t i; (i = next++) < count;) body(i);
+      // Relaxed: any stronger order would tie the threads to each other, and hide races between their bodies.
+      for (std::size_t i; (i = next.fetch_add(1, std::memory_order_relaxed)) < count;) body(i);
     } catch (...) {
       const std::scoped_lock lock(mutex);
       if (!fault) fault = std::current_exception();
