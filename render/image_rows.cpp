@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <numeric>
+
 namespace laterna {
 
 namespace {
@@ -46,6 +48,14 @@ void for_each_region(const ImageRows& image, std::size_t first, std::size_t coun
 
 void for_each_region(const ImageRows& image, const std::function<void(LightRows&, std::size_t)>& work) {
   for_each_region(image, 0, region_count(image), work);
+}
+
+double mean_entries(const ImageRows& image) {
+  std::vector<std::size_t> entries(region_count(image));
+  for_each_region(image,
+                  [&](const LightRows& rows, std::size_t index) { entries[index] = rows.entries.size(); });
+  return double(std::accumulate(entries.begin(), entries.end(), std::size_t{0})) /
+         (double(image.size.x) * image.size.y);
 }
 
 }  // namespace laterna

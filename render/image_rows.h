@@ -25,4 +25,7 @@ void for_each_region(const ImageRows& image, const std::function<void(LightRows&
 void for_each_region(const ImageRows& image, std::size_t first, std::size_t count,
                      const std::function<void(LightRows&, std::size_t)>& work);
 
+/// Entries over pixels of the image.
+double mean_entries(const ImageRows& image);
+
 }  // namespace laterna

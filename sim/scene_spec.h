@@ -77,6 +77,7 @@ struct CameraSpec {
   Sensor sensor{};
   Vignetting vignetting{};
   int samples_per_pixel = Camera{}.samples_per_pixel;
+  Optics optics{};
   bool operator==(const CameraSpec&) const = default;
 };
 

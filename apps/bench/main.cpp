@@ -2,9 +2,12 @@
 #include "apps/bench/picture_ratio.h"
 #include "apps/bench/replay_ratio.h"
 #include "apps/bench/stage_ratio.h"
+#include "sim/error.h"
+#include "sim/instruction_sets.h"
 #include "sim/parallel.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
@@ -17,20 +20,8 @@ namespace {
 struct Options {
   bool json = false;
   int repeats = 9, threads = 2, triangles = 100000;
+  std::string isa;
 };
-
-// The instruction set that the clones of the hot loops run on.
-std::string isa() {
-#if defined(__x86_64__)
-  if (__builtin_cpu_supports("avx512f")) return "avx512f";
-  if (__builtin_cpu_supports("avx2")) return "avx2";
-  return "sse2";
-#elif defined(__aarch64__)
-  return "neon";
-#else
-  return "unknown";
-#endif
-}
 
 // The bare calls that are fastest here are the measure.
 VisibilityTimes against_the_best(const Scene& scene, int repeats) {
@@ -41,6 +32,7 @@ VisibilityTimes against_the_best(const Scene& scene, int repeats) {
 
 nlohmann::ordered_json measure(const Options& options) {
   set_thread_count(options.threads);
+  cap_instruction_set(options.isa);
   const Scene scene = bench_scene(options.triangles);
   const VisibilityTimes visibility = against_the_best(scene, options.repeats);
   const ReplayTimes replay = time_replay(scene, options.repeats);
@@ -59,7 +51,7 @@ nlohmann::ordered_json measure(const Options& options) {
           {"write_tif44_over_copy", pictures.tif_over_copy},
           {"write_tif_pages44_over_copy", pictures.pages_over_copy},
           {"threads", thread_count()},
-          {"isa", isa()},
+          {"isa", instruction_set()},
           {"fill_seconds", replay.fill},
           {"visibility_seconds", visibility.visibility}};
 }
@@ -75,8 +67,17 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--threads", options.threads)->check(CLI::Range(1, 1024))->capture_default_str();
   app.add_option("--triangles", options.triangles)->check(CLI::Range(2, 10000000))->capture_default_str();
+  app.add_option(
+      "--isa", options.isa,
+      fmt::format("use no more than this instruction set: {}", fmt::join(instruction_set_names(), ", ")));
   CLI11_PARSE(app, argc, argv);
-  const nlohmann::ordered_json result = measure(options);
+  nlohmann::ordered_json result;
+  try {
+    result = measure(options);
+  } catch (const InputError& error) {
+    fmt::print(stderr, "laterna-bench: {}\n", error.what());
+    return 2;
+  }
   if (options.json) {
     fmt::print("{}\n", result.dump());
     return 0;
