@@ -26,6 +26,12 @@ using DeviceHandle = std::unique_ptr<RTCDeviceTy, ReleaseDevice>;
 using SceneHandle = std::unique_ptr<RTCSceneTy, ReleaseScene>;
 using GeometryHandle = std::unique_ptr<RTCGeometryTy, ReleaseGeometry>;
 
+#ifdef LATERNA_PLAIN_THREADS  // for ThreadSanitizer, which cannot follow Embree's own threads
+constexpr const char* embree_threads = "threads=1,";
+#else
+constexpr const char* embree_threads = "";
+#endif
+
 // Embree calls this from its own code, through which no exception may pass: keep the first message for later.
 void remember(void* where, RTCError code, const char* message) {
   auto& kept = *static_cast<std::string*>(where);
@@ -63,7 +69,7 @@ struct RayScene::Embree {
 };
 
 void RayScene::Embree::open() {
-  device.reset(rtcNewDevice(embree_configuration().c_str()));
+  device.reset(rtcNewDevice((embree_threads + embree_configuration()).c_str()));
   if (!device) throw std::runtime_error("Embree: no device could be opened");
   rtcSetDeviceErrorFunction(device.get(), remember, &error);
   sixteen_wide = rtcGetDeviceProperty(device.get(), RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED) != 0;

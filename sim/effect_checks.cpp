@@ -166,6 +166,15 @@ void check(const Gloss& gloss, double albedo) {
   }
 }
 
+void check(const MeshEffects& effects, double albedo) {
+  check(effects.gloss, albedo);
+  if (!effects.displacement_map.empty() && effects.displacement == 0)
+    throw InputError(
+        "displacement_map is given, but displacement is missing or 0, expected how far white moves");
+  if (effects.displacement_map.empty() && effects.displacement != 0)
+    throw InputError("displacement is given, but displacement_map is missing, expected a picture file");
+}
+
 void check_effects(const SceneSpec& scene) {
   check_projector_effects(scene);
   check_slide(scene);
@@ -178,6 +187,8 @@ void check_effects(const SceneSpec& scene) {
                [](const CameraSpec& c) { return c.samples_per_pixel > 1; });
   expect_given(on.gloss, "gloss", "mesh", "gloss", scene.meshes,
                [](const MeshSpec& m) { return m.effects.gloss.model != GlossModel::none; });
+  expect_given(on.displacement, "displacement", "mesh", "displacement_map", scene.meshes,
+               [](const MeshSpec& m) { return !m.effects.displacement_map.empty(); });
   expect_given(on.normal_map, "normal_map", "mesh", "normal_map", scene.meshes,
                [](const MeshSpec& m) { return !m.effects.normal_map.empty(); });
   expect_given(on.solid_albedo, "solid_albedo", "mesh", "solid", scene.meshes,

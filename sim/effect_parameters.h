@@ -94,7 +94,10 @@ struct InterReflection {
 struct MeshEffects {
   Gloss gloss{};
   Solid solid{};
-  std::string normal_map{};  ///< a picture file
+  std::string normal_map{};        ///< a picture file
+  std::string displacement_map{};  ///< a picture file
+  double displacement = 0;         ///< where the map is white, in the mesh file's unit; signed
+  double displacement_edge_px = 1;
   bool operator==(const MeshEffects&) const = default;
 };
 

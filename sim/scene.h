@@ -33,6 +33,8 @@ struct Object {
   std::uint64_t seed = 1;  ///< draws the solid noise
   /// Tangent-space normals, each channel 0 to 1: n = 2·rgb - 1. Empty where effects.normal_map is.
   std::shared_ptr<const Image<glm::vec3>> normal_map{};
+  /// Heights, linear, 0 to 1. Empty where effects.displacement_map is.
+  std::shared_ptr<const Image<float>> displacement_map{};
 };
 
 /// A projector: a device that emits.

@@ -119,6 +119,15 @@ void add_normal_map(Object& object, const std::filesystem::path& folder) {
   object.normal_map = read_normal_map(folder / object.effects.normal_map);
 }
 
+void add_displacement_map(Object& object, const std::filesystem::path& folder) {
+  const std::string& file = object.effects.displacement_map;
+  if (file.empty()) return;
+  if (object.mesh.texture_coordinates.empty())
+    throw InputError("displacement_map is given, but the mesh has no texture coordinates");
+  object.displacement_map =
+      std::make_shared<const Image<float>>(read_fractions(folder / file, Encoding::linear));
+}
+
 Object build_object(const MeshSpec& spec, const std::filesystem::path& folder, Maps& maps) {
   Object object{.name = spec.name,
                 .mesh = {},
@@ -127,7 +136,8 @@ Object build_object(const MeshSpec& spec, const std::filesystem::path& folder, M
                 .albedo_map = {},
                 .effects = spec.effects,
                 .seed = spec.seed,
-                .normal_map = {}};
+                .normal_map = {},
+                .displacement_map = {}};
   if (spec.file.empty()) {
     object.mesh = make_shape({spec.shape, spec.shape_size, spec.detail, spec.seed});
   } else {
@@ -136,6 +146,7 @@ Object build_object(const MeshSpec& spec, const std::filesystem::path& folder, M
   validate(object.mesh, spec.file.empty() ? spec.shape : spec.file);
   expect_near(object.mesh, object.world_from_object);
   add_normal_map(object, folder);
+  add_displacement_map(object, folder);
   if (spec.albedo_map.empty()) return object;
   if (object.mesh.texture_coordinates.empty())
     throw InputError("albedo_map is given, but the mesh has no texture coordinates");
@@ -194,7 +205,7 @@ void check(const MeshSpec& mesh) {
                                          : "file and shape are both given, expected one of the two");
     }
     world_from_file(mesh);
-    check(mesh.effects.gloss, mesh.albedo);
+    check(mesh.effects, mesh.albedo);
   });
 }
 

@@ -213,6 +213,25 @@ void describe(Visitor& visit, MeshEffects& effects) {
               .sentence = "A colour picture of normals: red along s, green along t, blue outwards, each 0 to "
                           "1 for -1 to 1; relative to the scene file."},
         effects.normal_map);
+  visit(Field{.key = "displacement_map",
+              .sentence =
+                  "A picture of heights, linear, 0 to 1, through the mesh's texture coordinates; 16 bits or "
+                  "floats give no steps; relative to the scene file."},
+        effects.displacement_map);
+  visit(Field{.key = "displacement",
+              .sentence =
+                  "How far white moves the surface outwards along its smooth normal (negative: inwards), in "
+                  "the mesh file's unit, before `scale`; black stays.",
+              .low = -1e6,
+              .high = 1e6},
+        effects.displacement);
+  visit(Field{.key = "displacement_edge_px",
+              .unit = "px",
+              .sentence =
+                  "The mesh is refined until no edge is longer than this many pixels of displacement_map.",
+              .low = 0.1,
+              .high = 16384},
+        effects.displacement_edge_px);
 }
 
 template <class Visitor>

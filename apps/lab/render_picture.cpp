@@ -113,7 +113,7 @@ Image<float> dual_cd_per_m2(const Selected& selected, const RenderOptions& optio
 }
 
 BakedTexture bake(const Selected& selected, const RenderOptions& options) {
-  const Scene& scene = selected.scene;
+  const Scene& scene = selected.rig.as_seen(selected.scene);
   int mesh = 0;
   while (options.mesh.empty() && mesh + 1 < int(scene.objects.size()) &&
          scene.objects[mesh].mesh.texture_coordinates.empty())

@@ -2,6 +2,7 @@
 
 #include "render/automatic_exposure.h"
 #include "render/effects/apply_effects.h"
+#include "render/effects/displacement.h"
 #include "render/exposure.h"
 #include "render/trace_rows.h"
 #include "sim/error.h"
@@ -48,7 +49,10 @@ ImageRows direct_view_rows(const Scene& scene, const Traced& traced, const View&
 Rig make_rig(const Scene& scene, StageTimes& times) {
   if (scene.projectors.empty()) throw InputError("the scene has no [[projector]], expected at least one");
   if (scene.cameras.empty()) throw InputError("the scene has no [[camera]], expected at least one");
-  Rig rig{times.measure("build", [&] { return RayScene(scene); }), {}};
+  std::optional<Scene> moved;
+  times.measure("build", [&] { displaced(scene, moved); });
+  Rig rig{times.measure("build", [&] { return RayScene(moved ? *moved : scene); }), {}, {}};
+  if (moved) rig.displaced = std::make_unique<const Scene>(std::move(*moved));
   times.measure("surface", [&] {
     for (const Camera& camera : scene.cameras) rig.directions.emplace_back(camera.device);
   });
@@ -56,12 +60,12 @@ Rig make_rig(const Scene& scene, StageTimes& times) {
 }
 
 StripTracer::StripTracer(const Scene& scene, const Rig& rig, int camera, int projector)
-    : scene_(scene),
+    : scene_(rig.as_seen(scene)),
       rig_(rig),
       camera_(camera),
       projector_(projector),
-      eye_(make_camera_view(rig.rays, scene, scene.cameras[camera])),
-      source_(make_projector_view(rig.rays, scene, scene.projectors[projector])) {}
+      eye_(make_camera_view(rig.rays, scene_, scene_.cameras[camera])),
+      source_(make_projector_view(rig.rays, scene_, scene_.projectors[projector])) {}
 
 int StripTracer::count() const { return (rig_.directions[camera_].height() + tile_edge - 1) / tile_edge; }
 
@@ -81,7 +85,7 @@ ImageRows rig_rows(const Scene& scene, const Rig& rig, int camera, int projector
                    const PixelSamples& samples) {
   const CameraRays& directions = rig.directions[camera];
   return {{directions.width(), directions.height()},
-          trace_rows(rig.rays, scene, camera, directions, projector, samples),
+          trace_rows(rig.rays, rig.as_seen(scene), camera, directions, projector, samples),
           region_px_of(scene, samples)};
 }
 
@@ -112,8 +116,9 @@ double saturation_cd_per_m2(const Scene& scene, const Rig& rig, int camera, int 
   return times.measure("exposure", [&] { return automatic_saturation_cd_per_m2({&rows, 1}); });
 }
 
-Traced trace(const Scene& scene, StageTimes& times, const Progress& progress) {
-  Traced traced{make_rig(scene, times), {}, {}, {}};
+Traced trace(const Scene& given, StageTimes& times, const Progress& progress) {
+  Traced traced{make_rig(given, times), {}, {}, {}};
+  const Scene& scene = traced.as_seen(given);
   const RayScene& rays = traced.rays;
   for (int c = 0; c < int(scene.cameras.size()); ++c) {
     const Camera& camera = scene.cameras[c];

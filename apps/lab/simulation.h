@@ -12,6 +12,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -47,6 +48,10 @@ struct View {
 struct Rig {
   RayScene rays;
   std::vector<CameraRays> directions;  ///< one per camera
+  std::unique_ptr<const Scene>
+      displaced;  ///< the scene that the rays meet where displacement moves its meshes
+
+  const Scene& as_seen(const Scene& given) const { return displaced ? *displaced : given; }
 };
 
 /// Throws InputError where the scene has no projector or no camera.

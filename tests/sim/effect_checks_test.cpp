@@ -40,6 +40,7 @@ TEST(EffectChecks, ASwitchWithoutItsParametersNamesTheMissingKey) {
   expect("attenuation", "projector", "attenuation");
   expect("gloss", "mesh", "gloss");
   expect("normal_map", "mesh", "normal_map");
+  expect("displacement", "mesh", "displacement_map");
   expect("solid_albedo", "mesh", "solid");
   expect("response", "projector", "response_exponent");
   expect("black_level", "projector", "black_level");
@@ -111,6 +112,10 @@ TEST(EffectChecks, ParametersThatMakeNoSense) {
   EXPECT_THAT(projector_error("response_table = [0, 1]\nresponse_exponent = 2\n"), HasSubstr("both given"));
   EXPECT_THAT(error_of(mesh + "gloss = { model = \"phong\" }\n"), HasSubstr("exponent is missing"));
   EXPECT_THAT(error_of(mesh + "gloss = { model = \"ggx\" }\n"), HasSubstr("roughness is missing"));
+  EXPECT_THAT(error_of(mesh + "displacement = 0.1\n"), HasSubstr("displacement_map is missing"));
+  EXPECT_THAT(error_of(mesh + "displacement_map = \"h.png\"\n"), HasSubstr("displacement is missing or 0"));
+  EXPECT_THAT(error_of(mesh + "displacement_map = \"h.png\"\ndisplacement = 1e7\n"),
+              HasSubstr("displacement"));
   EXPECT_THAT(error_of(mesh + "gloss = { model = \"ggx\", roughness = 0.1, strength = 0.3 }\n"),
               HasSubstr("more than all light"));
 }
@@ -129,7 +134,8 @@ TEST(EffectChecks, EveryKeySurvivesWritingAndReading) {
   scene.patterns = {PatternKind::slide, "slide.png", Encoding::linear};
   scene.inter_reflection = {3, 20};
   scene.meshes[0].albedo = 0.5;
-  scene.meshes[0].effects = {{GlossModel::ggx, 0.25, {}, 0.3}, {SolidKind::noise, 0.7, 0.1}, "n.png"};
+  scene.meshes[0].effects = {
+      {GlossModel::ggx, 0.25, {}, 0.3}, {SolidKind::noise, 0.7, 0.1}, "n.png", "h.png", -0.5, 2.5};
   scene.cameras[0].vignetting = {VignettingModel::map, {}, "v.exr"};
   scene.cameras[0].samples_per_pixel = 9;
   scene.projectors[0].effects = {
@@ -163,6 +169,13 @@ TEST(EffectChecks, PicturesAreReadAndChecked) {
   EXPECT_EQ(scene.slide->light.width, 640);
   EXPECT_THAT(testing::input_error([&] { load(mesh + "normal_map = \"down.exr\"\n"); }),
               HasSubstr("blue above 0.5"));
+  write_picture(folder / "high.exr", Image<float>(4, 2, 1.5f));
+  EXPECT_THAT(
+      testing::input_error([&] { load(mesh + "displacement_map = \"high.exr\"\ndisplacement = 0.1\n"); }),
+      AllOf(HasSubstr("high.exr"), HasSubstr("a pixel is 1.5, expected 0 to 1")));
+  EXPECT_THAT(
+      testing::input_error([&] { load(mesh + "displacement_map = \"none.png\"\ndisplacement = 0.1\n"); }),
+      HasSubstr("none.png"));
   EXPECT_THAT(testing::input_error([&] { load(mesh + "normal_map = \"none.png\"\n"); }),
               HasSubstr("none.png"));
 }
