@@ -1,7 +1,7 @@
 #include "apps/lab/capture_writer.h"
 
 #include "apps/lab/matrices.h"
-#include "render/effects/scaler.h"
+#include "render/effects/apply_effects.h"
 #include "sim/capture_folder.h"
 #include "sim/error.h"
 #include "sim/image_file.h"
@@ -42,7 +42,9 @@ CaptureSequence describe(const Scene& scene, const View& view, const std::string
   s.camera = camera.device.name;
   s.projector = projector.name;
   s.camera_size = camera.device.intrinsics.size;
-  s.projector_size = input_size(scene.effects, scene.projectors[view.projector]);
+  const PatternSequence patterns = pattern_sequence(scene, scene.projectors[view.projector]);
+  s.projector_size = patterns.projector_size;
+  s.patterns = patterns.parameters;
   s.bit_depth = camera.sensor.bit_depth;
   s.saturation_cd_per_m2 = view.saturation_cd_per_m2;
   if (camera.sensor.kind == SensorKind::emva1288)

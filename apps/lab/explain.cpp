@@ -1,7 +1,7 @@
 #include "apps/lab/explain.h"
 
-#include "calib/decode_gray.h"
-#include "render/effects/scaler.h"
+#include "calib/decode.h"
+#include "render/effects/apply_effects.h"
 #include "sim/effect_checks.h"
 #include "sim/error.h"
 
@@ -36,9 +36,9 @@ Captured capture_all(const Scene& scene, std::uint64_t seed, const std::vector<d
     if (!saturations.empty()) view.saturation_cd_per_m2 = saturations[i];
     captured.saturations.push_back(view.saturation_cd_per_m2);
     captured.stacks.push_back(capture_view(scene, traced, view, seed, times));
-    if (!scene.effects.slide) {
-      captured.maps.push_back(decode_gray(captured.stacks.back(),
-                                          input_size(scene.effects, scene.projectors[view.projector]), {}));
+    if (!comes_from_files(scene.patterns.kind)) {
+      captured.maps.push_back(
+          decode(captured.stacks.back(), pattern_sequence(scene, scene.projectors[view.projector])));
     }
     for (std::size_t p = 0; p < view.light.why.values.size(); ++p) lit += view.light.lit(p);
     pixels += double(view.light.why.values.size());

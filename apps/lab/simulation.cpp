@@ -71,8 +71,8 @@ CapturedStack capture_view(const Scene& scene, const Traced& traced, const View&
                            exposure);
     });
   };
-  if (projector.lookup == Lookup::nearest && !edits_patterns(scene.effects)) {
-    const GraySequence sequence{projector.device.intrinsics.size};
+  const PatternSequence sequence = pattern_sequence(scene, projector);
+  if (projector.lookup == Lookup::nearest && !edits_patterns(scene.effects) && is_binary(sequence)) {
     return play(times.measure("patterns", [&] { return make_binary_pattern_stack(sequence); }));
   }
   return play(times.measure("patterns", [&] { return make_patterns(scene, projector); }));
