@@ -86,6 +86,13 @@ void append_groups(const PatternSequence& sequence, int axis, std::vector<Group>
 
 std::uint8_t value_of(bool lit) { return lit ? 255 : 0; }
 
+/// round(127.5·(1 + cos 2π·turns)), halves up although cosines are inexact: values at ±turns are equal, so
+/// rounding shifts no phase on average.
+std::uint8_t sinusoid_value(double turns) {
+  return std::uint8_t(
+      std::min(255L, std::lround(127.5 * (1 + std::cos(2 * std::numbers::pi * turns)) + 1e-9)));
+}
+
 /// What picture `group.first + j` shows along its axis.
 Values profile(const PatternSequence& sequence, const Group& group, int j) {
   Values values;
@@ -94,7 +101,7 @@ Values profile(const PatternSequence& sequence, const Group& group, int j) {
       values.push_back(value_of((code_word(sequence, group.axis, x) >> group.bit & 1u) != unsigned(j)));
     } else {
       const double turns = x / group.pitch_px + double(j) / group.count;
-      values.push_back(std::uint8_t(std::lround(127.5 * (1 + std::cos(2 * std::numbers::pi * turns)))));
+      values.push_back(sinusoid_value(turns));
     }
   }
   return values;
@@ -211,14 +218,21 @@ PatternStack make_pattern_stack(const PatternSequence& sequence) {
   const std::vector<Line> lines = lines_of(sequence);
   const glm::ivec2 size = sequence.projector_size;
   const std::size_t count = lines.size();
+  // Columns come first, then rows: a row of texels is the first one with other values of the row pictures.
+  const auto is_row = [](const Line& line) { return line.axis == 1; };
+  const std::size_t rows_begin = std::find_if(lines.begin(), lines.end(), is_row) - lines.begin();
+  const std::size_t rows = std::count_if(lines.begin(), lines.end(), is_row);
+  Values first;
+  for (int x = 0; x < size.x; ++x)
+    for (const Line& line : lines) first.push_back(line.values[line.axis == 0 ? x : 0]);
   PatternStack stack{size.x, size.y, int(count), {}, linear_light(), {}};
-  stack.values.resize(count * size.x * size.y);
+  stack.values.resize(first.size() * size.y);
   parallel_for(std::size_t(size.y), [&](std::size_t y) {
-    std::uint8_t* row = stack.values.data() + y * size.x * count;
-    for (std::size_t k = 0; k < count; ++k) {
-      const Line& line = lines[k];
-      for (int x = 0; x < size.x; ++x) row[x * count + k] = line.values[line.axis == 0 ? std::size_t(x) : y];
-    }
+    std::uint8_t* texel = stack.values.data() + y * first.size();
+    std::copy(first.begin(), first.end(), texel);
+    Values own;
+    for (std::size_t k = 0; k < rows; ++k) own.push_back(lines[rows_begin + k].values[y]);
+    for (int x = 0; x < size.x; ++x, texel += count) std::copy(own.begin(), own.end(), texel + rows_begin);
   });
   return stack;
 }

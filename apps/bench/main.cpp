@@ -1,4 +1,5 @@
 // laterna-bench: what the hot stages cost, beside what the machine can do, measured in one run.
+#include "apps/bench/decode_ratio.h"
 #include "apps/bench/replay_ratio.h"
 #include "apps/bench/stage_ratio.h"
 #include "sim/parallel.h"
@@ -44,6 +45,7 @@ nlohmann::ordered_json measure(const Options& options) {
   const VisibilityTimes visibility = against_the_best(scene, options.repeats);
   const ReplayTimes replay = time_replay(scene, options.repeats);
   const StackTimes stack = time_stack(scene, std::max(1, options.repeats / 3));
+  const DecodeTimes decode = time_decode(options.repeats);
   return {{"visibility_over_embree", visibility.ratio},
           {"replay_bilinear_over_fill", replay.bilinear_over_fill},
           {"replay_binary_over_fill", replay.binary_over_fill},
@@ -53,6 +55,9 @@ nlohmann::ordered_json measure(const Options& options) {
           {"stack44_seconds", stack.one},
           {"stack44_spp16_seconds", stack.sixteen},
           {"roundtrip_seconds", time_roundtrip(scene, std::max(1, options.repeats / 3))},
+          {"decode_gray_over_read", decode.gray_over_read},
+          {"opencv_over_decode_gray", decode.opencv_over_gray},
+          {"atan2_over_decode_phase", decode.atan2_over_phase},
           {"threads", thread_count()},
           {"isa", isa()},
           {"fill_seconds", replay.fill},

@@ -78,7 +78,9 @@ TEST(EffectChecks, EveryKeySurvivesWritingAndReading) {
   }
   EXPECT_EQ(names.size(), all_effects.size());
   EXPECT_EQ(defaults_on, 5);
-  scene.patterns = {{.kind = PatternKind::slide}, "slide.png", {}, Encoding::linear};
+  scene.patterns.parameters.kind = PatternKind::slide;
+  scene.patterns.file = "slide.png";
+  scene.patterns.encoding = Encoding::linear;
   scene.meshes[0].albedo = 0.5;
   scene.meshes[0].effects = {{GlossModel::ggx, 0.25, {}, 0.3}, {SolidKind::noise, 0.7, 0.1}, "n.png"};
   scene.cameras[0].vignetting = {VignettingModel::map, {}, "v.exr"};
