@@ -84,14 +84,18 @@ void check_optics(const SceneSpec& scene) {
 }
 
 void check_slide(const SceneSpec& scene) {
-  const bool is_slide = scene.patterns.kind == PatternKind::slide;
+  const PatternKind kind = scene.patterns.parameters.kind;
+  const bool is_slide = kind == PatternKind::slide, is_list = kind == PatternKind::pictures;
   if (scene.effects.slide && !is_slide)
-    throw InputError("[effects]: slide is on, but kind of [patterns] is \"gray\", expected \"slide\"");
+    throw InputError("[effects]: slide is on, but kind of [patterns] is another, expected \"slide\"");
   if (!scene.effects.slide && is_slide)
     throw InputError(
         "[patterns]: kind is \"slide\", but slide of [effects] is off, expected slide = true there");
   if (is_slide && scene.patterns.file.empty())
     throw InputError("[effects]: slide is on, but [patterns] has no key file, expected a picture");
+  if (is_list == scene.patterns.files.empty())
+    throw InputError(is_list ? "[patterns]: kind is \"pictures\", but files is empty, expected pictures"
+                             : "[patterns]: files is given, but kind is not \"pictures\"");
 }
 
 void check_inter_reflection(const SceneSpec& scene) {

@@ -94,6 +94,26 @@ Image<float> read_fractions(const std::filesystem::path& path, Encoding encoding
   return map;
 }
 
+Slide read_slide(const PatternsSpec& patterns, const std::filesystem::path& path) {
+  return {about("[patterns]", [&] { return read_fractions(path, patterns.encoding); }),
+          patterns.encoding == Encoding::linear};
+}
+
+std::vector<Slide> read_slides(const PatternsSpec& patterns, const std::filesystem::path& folder) {
+  std::vector<Slide> slides;
+  for (const std::string& file : patterns.files) slides.push_back(read_slide(patterns, folder / file));
+  return slides;
+}
+
+/// Whether each projector can show the sequence; behind a scaler, another size is asked for when it does.
+void check_patterns(const Scene& scene) {
+  if (scene.effects.scaler) return;
+  for (const Projector& projector : scene.projectors)
+    about(heading("projector", projector.device.name), [&] {
+      validate(PatternSequence{scene.patterns, projector.device.intrinsics.size});
+    });
+}
+
 std::shared_ptr<const Image<float>> vignetting_map(const Vignetting& vignetting,
                                                    const std::filesystem::path& folder) {
   if (vignetting.model != VignettingModel::map) return {};
@@ -249,10 +269,11 @@ Scene build_scene(const SceneSpec& spec, const std::filesystem::path& folder) {
               .projectors = {},
               .cameras = {},
               .ambient_lx = spec.ambient_lx,
-              .patterns = spec.patterns.kind,
+              .patterns = spec.patterns.parameters,
               .effects = spec.effects,
               .inter_reflection = spec.inter_reflection,
-              .slide = {}};
+              .slide = {},
+              .pictures = {}};
   const SceneSpec named = with_names(spec);
   Maps maps;
   for (const MeshSpec& mesh : named.meshes) {
@@ -274,12 +295,11 @@ Scene build_scene(const SceneSpec& spec, const std::filesystem::path& folder) {
                              c.samples_per_pixel, c.optics});
   }
   switch_off_lenses(scene);
-  if (spec.effects.slide) {
-    scene.slide = std::make_shared<const Slide>(
-        Slide{about("[patterns]",
-                    [&] { return read_fractions(folder / spec.patterns.file, spec.patterns.encoding); }),
-              spec.patterns.encoding == Encoding::linear});
-  }
+  if (spec.effects.slide)
+    scene.slide = std::make_shared<const Slide>(read_slide(spec.patterns, folder / spec.patterns.file));
+  if (spec.patterns.parameters.kind == PatternKind::pictures)
+    scene.pictures = std::make_shared<const std::vector<Slide>>(read_slides(spec.patterns, folder));
+  check_patterns(scene);
   return scene;
 }
 

@@ -67,6 +67,8 @@ SceneSpec write_self_contained(const SceneSpec& spec, const Scene& scene, const 
     copy_picture(copy.cameras[i].vignetting.map, fmt::format("camera{}", i + 1), folder, target);
   }
   copy_picture(copy.patterns.file, "slide", folder, target);
+  for (std::size_t i = 0; i < copy.patterns.files.size(); ++i)
+    copy_picture(copy.patterns.files[i], fmt::format("picture{}", i + 1), folder, target);
   write_file(target / "scene.toml", scene_toml(copy));
   return copy;
 }

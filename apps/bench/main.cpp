@@ -1,4 +1,5 @@
 // laterna-bench: what the hot stages cost, beside what the machine can do, measured in one run.
+#include "apps/bench/decode_ratio.h"
 #include "apps/bench/picture_ratio.h"
 #include "apps/bench/replay_ratio.h"
 #include "apps/bench/scaling.h"
@@ -43,6 +44,7 @@ nlohmann::ordered_json measure(const Options& options) {
   const ReplayTimes replay = time_replay(scene, options.repeats);
   const StackTimes stack = time_stack(scene, std::max(1, options.repeats / 3));
   const PictureTimes pictures = time_pictures(std::max(1, options.repeats / 3));
+  const DecodeTimes decode = time_decode(options.repeats);
   return {{"visibility_over_embree", visibility.ratio},
           {"replay_bilinear_over_fill", replay.bilinear_over_fill},
           {"replay_binary_over_fill", replay.binary_over_fill},
@@ -55,6 +57,9 @@ nlohmann::ordered_json measure(const Options& options) {
           {"write_png44_over_copy", pictures.png_over_copy},
           {"write_tif44_over_copy", pictures.tif_over_copy},
           {"write_tif_pages44_over_copy", pictures.pages_over_copy},
+          {"decode_gray_over_read", decode.gray_over_read},
+          {"opencv_over_decode_gray", decode.opencv_over_gray},
+          {"atan2_over_decode_phase", decode.atan2_over_phase},
           {"threads", thread_count()},
           {"isa", instruction_set()},
           {"fill_seconds", replay.fill},

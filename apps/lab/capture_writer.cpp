@@ -3,7 +3,7 @@
 #include "apps/lab/capture_warnings.h"
 #include "apps/lab/matrices.h"
 #include "apps/lab/truth_picture.h"
-#include "render/effects/scaler.h"
+#include "render/effects/apply_effects.h"
 #include "render/trace_rows.h"
 #include "sim/capture_folder.h"
 #include "sim/error.h"
@@ -63,7 +63,9 @@ CaptureSequence describe(const Scene& scene, int camera_index, int projector_ind
   s.camera = camera.device.name;
   s.projector = projector.name;
   s.camera_size = camera.device.intrinsics.size;
-  s.projector_size = input_size(scene.effects, scene.projectors[projector_index]);
+  const PatternSequence patterns = pattern_sequence(scene, scene.projectors[projector_index]);
+  s.projector_size = patterns.projector_size;
+  s.patterns = patterns.parameters;
   s.bit_depth = camera.sensor.bit_depth;
   s.saturation_cd_per_m2 = saturation_cd_per_m2;
   if (camera.sensor.kind == SensorKind::emva1288)

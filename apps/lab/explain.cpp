@@ -1,7 +1,7 @@
 #include "apps/lab/explain.h"
 
-#include "calib/decode_gray.h"
-#include "render/effects/scaler.h"
+#include "calib/decode.h"
+#include "render/effects/apply_effects.h"
 #include "sim/effect_checks.h"
 #include "sim/error.h"
 #include "sim/scene_build.h"
@@ -73,9 +73,9 @@ Captured capture_all(const Scene& scene, std::uint64_t seed, const std::vector<d
   }
   std::nth_element(seconds.begin(), seconds.begin() + runs / 2, seconds.end());
   captured.seconds = seconds[runs / 2];
-  for (std::size_t i = 0; i < captured.stacks.size() && !scene.effects.slide; ++i) {
+  for (std::size_t i = 0; i < captured.stacks.size() && !comes_from_files(scene.patterns.kind); ++i) {
     const Projector& projector = scene.projectors[captured.projectors[i]];
-    captured.maps.push_back(decode_gray(captured.stacks[i], input_size(scene.effects, projector), {}));
+    captured.maps.push_back(decode(captured.stacks[i], pattern_sequence(scene, projector)));
   }
   return captured;
 }

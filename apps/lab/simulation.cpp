@@ -164,8 +164,8 @@ CapturedStack capture_rows(const Scene& scene, int camera, int projector, const 
   const auto play = [&](const Show& show) {
     return times.measure("capture", [&] { return play_stack(rows, source.lookup, show, exposure); });
   };
-  if (source.lookup == Lookup::nearest && !edits_patterns(scene.effects)) {
-    const GraySequence sequence{source.device.intrinsics.size};
+  const PatternSequence sequence = pattern_sequence(scene, source);
+  if (source.lookup == Lookup::nearest && !edits_patterns(scene.effects) && is_binary(sequence)) {
     const BinaryPatternStack bits =
         times.measure("patterns", [&] { return make_binary_pattern_stack(sequence); });
     return play(bits);

@@ -1,3 +1,4 @@
+#include "apps/laterna/pattern_words.h"
 #include "apps/laterna/solve_words.h"
 
 #include "apps/lab/calibrate_folder.h"
@@ -15,6 +16,7 @@ namespace {
 
 struct Words {
   std::string folder, scene, size, out;
+  PatternParameters patterns;
   SolveOptions solve;
 };
 
@@ -33,12 +35,8 @@ int run(const Words& words, const Common& common) {
     if (!std::filesystem::is_directory(parent))
       throw InputError(fmt::format("{}: no such folder, expected one to write into", parent.string()));
   }
-  std::optional<glm::ivec2> size;
-  if (!words.size.empty()) {
-    const auto parsed = parse_size(words.size, "--projector-size");
-    size = glm::ivec2(parsed[0], parsed[1]);
-  }
-  const CaptureManifest manifest = manifest_or_pictures(words.folder, size);
+  const CaptureManifest manifest =
+      manifest_or_pictures(words.folder, plain_patterns(words.patterns, words.size));
   const Scene scene = believed_scene(words, manifest);
   SolveOptions options = words.solve;
   options.seed = common.seed;
@@ -48,10 +46,12 @@ int run(const Words& words, const Common& common) {
   int code = exit_ok;
   for (const FolderEstimate& e : estimates) {
     entries.push_back(estimate_json(e.projector, e.solve));
+    entries.back()["flags"] = e.flags;
     if (e.solve.status == Status::refused) code = exit_refused;
     if (e.solve.status == Status::weak && code == exit_ok) code = exit_weak;
     if (common.json) continue;
     fmt::print("projector \"{}\": {} correspondences\n", e.projector, e.correspondences);
+    for (const std::string& flag : e.flags) fmt::print("  pictures {}\n", flag);
     if (e.solve.status != Status::refused) {
       fmt::print("{}  predicted error over the volume {:.4g} px\n", solve_text(e.solve, nullptr),
                  e.solve.predicted_volume_rms_px);
@@ -79,6 +79,7 @@ void add_calibrate(CLI::App& app, Common& common) {
   command->add_option("--scene", words->scene,
                       "Scene with the believed meshes and cameras (default: the folder's own)");
   command->add_option("--projector-size", words->size, "WIDTHxHEIGHT, for a folder without a manifest");
+  add_pattern_words(*command, words->patterns);
   command->add_option("-o,--output", words->out, "File for the estimate (JSON; default: none written)");
   add_solve_words(*command, words->solve);
   command->callback([words, &common] { common.exit_code = run(*words, common); });

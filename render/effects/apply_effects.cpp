@@ -77,10 +77,15 @@ void apply_effects(PatternStack& patterns, const Scene& scene, const Projector& 
   if (on.veiling_glare) apply_veiling_glare(patterns, effects);
 }
 
+PatternSequence pattern_sequence(const Scene& scene, const Projector& projector) {
+  return {scene.patterns, input_size(scene.effects, projector)};
+}
+
 PatternStack make_patterns(const Scene& scene, const Projector& projector) {
   const glm::ivec2 size = input_size(scene.effects, projector);
-  PatternStack patterns =
-      scene.effects.slide ? make_slide_stack(*scene.slide, size) : make_pattern_stack({size});
+  PatternStack patterns = scene.effects.slide ? make_slide_stack({scene.slide.get(), 1}, size)
+                          : scene.pictures    ? make_slide_stack(*scene.pictures, size)
+                                              : make_pattern_stack(pattern_sequence(scene, projector));
   apply_effects(patterns, scene, projector);
   return patterns;
 }

@@ -131,8 +131,10 @@ TEST(EffectChecks, EveryKeySurvivesWritingAndReading) {
   }
   EXPECT_EQ(names.size(), all_effects.size());
   EXPECT_EQ(defaults_on, 7);
-  scene.patterns = {PatternKind::slide, "slide.png", Encoding::linear};
   scene.inter_reflection = {3, 20};
+  scene.patterns.parameters.kind = PatternKind::slide;
+  scene.patterns.file = "slide.png";
+  scene.patterns.encoding = Encoding::linear;
   scene.meshes[0].albedo = 0.5;
   scene.meshes[0].effects = {
       {GlossModel::ggx, 0.25, {}, 0.3}, {SolidKind::noise, 0.7, 0.1}, "n.png", "h.png", -0.5, 2.5};
