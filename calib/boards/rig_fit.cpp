@@ -45,6 +45,17 @@ void describe(RigFit& fit) {
   }
 }
 
+// Weights by residuals that a wrong model made would bend the solution: one common sigma, unless the devices'
+// differ by more than a factor of two (equal weights lose little below it).
+std::vector<double> weighting_sigmas(const RigFit& fit) {
+  const auto [least, most] = std::minmax_element(fit.sigma_px.begin(), fit.sigma_px.end());
+  if (*most > 2 * *least) return fit.sigma_px;
+  double sum = 0, count = 0;
+  for (const Sighting& s : fit.capture.sightings)
+    sum += fit.sigma_px[s.device] * fit.sigma_px[s.device], ++count;
+  return std::vector<double>(fit.sigma_px.size(), std::sqrt(sum / count));
+}
+
 void set_sigmas(BoardCapture& capture, const std::vector<double>& sigma_px) {
   for (Sighting& s : capture.sightings) s.sigma_px = std::max(sigma_px[s.device], 1e-9);
 }
@@ -75,7 +86,7 @@ std::optional<RigFit> fit_rig(const BoardCapture& capture, const RigModel& model
     fit.adjustment = std::move(*adjusted);
     rig = fit.adjustment.rig;
     describe(fit);
-    if (estimate_sigma && round < 2) set_sigmas(fit.capture, fit.sigma_px);
+    if (estimate_sigma && round < 2) set_sigmas(fit.capture, weighting_sigmas(fit));
   }
   return fit;
 }

@@ -25,13 +25,6 @@ void validate(const RigModel& model, const BoardCapture& capture) {
   }
 }
 
-// Adds the derivative g·dx to the columns of a pose whose point is x_target = R·x + t: a left rotation moves
-// it by w × R·x.
-void add_pose(double* row, const glm::dvec3& rotated, const glm::dvec3& g) {
-  const glm::dvec3 turn = glm::cross(rotated, g);
-  for (int i = 0; i < 3; ++i) row[i] += turn[i], row[3 + i] += g[i];
-}
-
 }  // namespace
 
 RigProblem::RigProblem(const BoardCapture& capture, const RigModel& rig_model, const RobustLoss& robust_loss)
@@ -48,6 +41,11 @@ RigProblem::RigProblem(const BoardCapture& capture, const RigModel& rig_model, c
   for (const Sighting& s : sightings) ++pose_begin[s.pose + 1];
   for (std::size_t k = 1; k < pose_begin.size(); ++k) pose_begin[k] += pose_begin[k - 1];
   for (const DeviceModel& m : model.devices) lenses.emplace_back(m.lens_model);
+}
+
+void add_pose_row(double* row, const glm::dvec3& rotated, const glm::dvec3& g) {
+  const glm::dvec3 turn = glm::cross(rotated, g);
+  for (int i = 0; i < 3; ++i) row[i] += turn[i], row[3 + i] += g[i];
 }
 
 bool predict(const RigProblem& problem, const Rig& rig, const Sighting& s, double pixel[2], double* rows) {
@@ -73,10 +71,10 @@ bool predict(const RigProblem& problem, const Rig& rig, const Sighting& s, doubl
     double* row = rows + r * count;
     const glm::dvec3 g(dx[3 * r], dx[3 * r + 1], dx[3 * r + 2]);
     const glm::dvec3 g_camera = g * device.device_from_camera.rotation;  // a row times a matrix
-    if (global > 0) add_pose(row, on_board, g_camera);
+    if (global > 0) add_pose_row(row, on_board, g_camera);
     for (int i = 0; i < k; ++i)
       if (of.intrinsics[i] >= 0) row[global + of.intrinsics[i]] += dk[r * k + i];
-    if (of.pose >= 0) add_pose(row + global + of.pose, turned, g);
+    if (of.pose >= 0) add_pose_row(row + global + of.pose, turned, g);
     for (int i = 0; i < 2 && problem.columns.bend >= 0; ++i)
       row[global + problem.columns.bend + i] = shape[i] * glm::dot(g_camera, board.rotation[2]);
   }

@@ -33,6 +33,10 @@ struct RigProblem {
   int row_columns() const { return pose_columns() + columns.count + 1; }
 };
 
+/// Adds to the six columns of a rigid motion x_target = R·x + t (left rotation vector, translation) the
+/// derivative that a gradient g by x_target makes: dx = w × R·x + dt. `rotated` is R·x.
+void add_pose_row(double* row, const glm::dvec3& rotated, const glm::dvec3& g);
+
 /// The pixel of one sighting under a rig and, unless null, its two rows of derivatives by the pose's columns
 /// and the global ones (row-major 2×(row_columns() - 1)). False where the point lies behind the device.
 bool predict(const RigProblem& problem, const Rig& rig, const Sighting& sighting, double pixel[2],
