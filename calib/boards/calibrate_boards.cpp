@@ -16,10 +16,10 @@ namespace {
 constexpr const char* more_poses =
     "add poses until there are five or more, tilted by 20° to 40° about both axes";
 
-RigModel generous_model(const BoardCapture& capture, const LadderOptions& options) {
+RigModel generous_model(const BoardCapture& capture) {
   RigModel model;
   model.devices.assign(capture.devices.size(), model_of_terms(lens_terms("k1k2p1p2")));
-  model.bend = options.bend;
+  model.bend = true;
   return model;
 }
 
@@ -47,7 +47,7 @@ BoardCapture without_outliers(const BoardCapture& capture, const Rig& start, con
                               BoardCalibration& result) {
   if (!(options.drop_beyond_sigmas > 0) || capture.pose_count() < 3) return capture;
   auto outliers =
-      drop_outliers(capture, generous_model(capture, options.ladder), start, options.drop_beyond_sigmas);
+      drop_outliers(capture, generous_model(capture), start, options.drop_beyond_sigmas);
   if (!outliers || outliers->dropped.empty()) return capture;
   result.dropped = std::move(outliers->dropped);
   result.dropped_residual_px = std::move(outliers->residual_px);
@@ -61,20 +61,6 @@ BoardCapture without_outliers(const BoardCapture& capture, const Rig& start, con
     return kept;
   }
   return outliers->kept;
-}
-
-// What a free bend of the board would change, where it is not free already.
-void try_bend(BoardCalibration& result, const BoardOptions& options) {
-  const RigFit& fit = result.ladder.fit;
-  if (options.ladder.bend || fit.capture.pose_count() < 3) return;
-  RigModel model = fit.model;
-  model.bend = true;
-  const auto trial = fit_rig(fit.capture, model, fit.adjustment.rig, options.estimate_sigma);
-  if (!trial) return;
-  const HeldOut after = hold_out_poses(trial->capture, trial->model, trial->adjustment.rig);
-  if (!after.failed.empty()) return;
-  result.bend_gain = after.rms_px / result.held_out().rms_px;
-  result.bend_gain_over_error = paired_gain_over_error(result.held_out(), after);
 }
 
 double focal_sigma_share(const BoardCalibration& result) {
@@ -208,7 +194,6 @@ BoardCalibration calibrate_boards(const BoardCapture& capture, const BoardOption
   }
   const std::string undetermined = describe(result);
   if (!undetermined.empty()) return refuse(result, undetermined);
-  try_bend(result, options);
   std::vector<std::string> weak;
   add_capture_weaknesses(result, capture, weak);
   add_forecast_weaknesses(result, options, weak);

@@ -16,8 +16,8 @@ struct BoardOptions {
   std::vector<std::vector<std::string>> terms;
   LadderOptions ladder;           ///< also holds bend, one_focal_length and fixed_center
   bool estimate_sigma = true;     ///< sigmas from the residuals; false: those of the capture are believed
-  double drop_beyond_sigmas = 6;  ///< outliers (drop_outliers()); 0: none are dropped
-  double tolerance_px = 0.5;      ///< a predicted volume error above it is `weak`
+  double drop_beyond_sigmas = 20;  ///< outliers (drop_outliers()); 0: none are dropped
+  double tolerance_px = 1;         ///< a predicted volume error above it is `weak`
 };
 
 struct BoardCalibration {
@@ -33,15 +33,13 @@ struct BoardCalibration {
   std::vector<Sighting> dropped;  ///< outliers, with residuals under the model that found them
   std::vector<double> dropped_residual_px;
   std::vector<int> unused_poses;     ///< labels of poses that the camera sees fewer than 4 corners of
-  std::optional<double> bend_gain;   ///< held-out rms with a free bend over that without; none where not tried
-  double bend_gain_over_error = 0;   ///< paired over the folds, as on the ladder
 
   double fit_rms_px() const;       ///< of all devices but the camera, sqrt(mean(du² + dv²))
   const HeldOut& held_out() const { return ladder.rungs[ladder.winner].held_out; }
 };
 
 /// The joint maximum-likelihood adjustment of everything (adjust.h) from starts of its own (rig_start.h), after
-/// dropping what no model with k1, k2, p1 and p2 explains, with the lens model named or the one that the ladder
+/// dropping gross outliers under a model with k1, k2, p1, p2 and bend, with the lens model named or the one that the ladder
 /// picks.
 ///
 /// Refused: no start, one pose of a flat board, a solver that does not converge, parameters that the sightings

@@ -17,9 +17,10 @@ using Terms = std::vector<std::vector<std::string>>;  // of each device
 
 struct Candidate {
   Terms terms;
+  bool bend = false;
   std::string added;
-  std::optional<RigFit> fit;
-  Rung rung;
+  std::optional<RigFit> fit = {};
+  Rung rung = {};
 };
 
 bool has(const std::vector<std::string>& terms, const char* term) {
@@ -37,29 +38,33 @@ std::vector<std::string> next_terms(const std::vector<std::string>& terms) {
   return next;
 }
 
-std::vector<Candidate> candidates_after(const Terms& terms, const BoardCapture& capture) {
+std::vector<Candidate> candidates_after(const Candidate& current, const BoardCapture& capture,
+                                        const LadderOptions& options) {
+  const Terms& terms = current.terms;
   std::vector<Candidate> candidates;
   const bool none = std::all_of(terms.begin(), terms.end(), [](const auto& t) { return t.empty(); });
   if (none && terms.size() > 1)
-    candidates.push_back({Terms(terms.size(), {"k1"}), "k1 of every device", {}, {}});
+    candidates.push_back({Terms(terms.size(), {"k1"}), current.bend, "k1 of every device"});
   for (std::size_t d = 0; d < terms.size(); ++d) {
     for (const std::string& term : next_terms(terms[d])) {
-      Candidate c{terms, capture.devices[d].name + " " + term, {}, {}};
+      Candidate c{terms, current.bend, capture.devices[d].name + " " + term};
       c.terms[d].push_back(term);
       candidates.push_back(std::move(c));
     }
   }
+  if (options.bend == LadderOptions::Bend::climbs && !current.bend)
+    candidates.push_back({terms, true, "board bend"});
   return candidates;
 }
 
-RigModel model_of(const Terms& terms, const LadderOptions& options) {
+RigModel model_of(const Terms& terms, bool bend, const LadderOptions& options) {
   RigModel model;
   for (const auto& t : terms) {
     model.devices.push_back(model_of_terms(t));
     model.devices.back().one_focal_length = options.one_focal_length;
     model.devices.back().fixed_center = options.fixed_center;
   }
-  model.bend = options.bend;
+  model.bend = bend;
   return model;
 }
 
@@ -70,6 +75,14 @@ double scatter(const HeldOut& held_out) {
   for (const HeldOutPose& fold : held_out.folds) mean += fold.rms_px / n;
   for (const HeldOutPose& fold : held_out.folds) sum += (fold.rms_px - mean) * (fold.rms_px - mean);
   return std::sqrt(sum / (n - 1));
+}
+
+// Over the folds: one that extrapolates far does not drown the others.
+double geometric_mean_px(const HeldOut& held_out) {
+  double sum = 0, count = 0;
+  for (const HeldOutPose& fold : held_out.folds)
+    if (fold.rms_px > 0) sum += std::log(fold.rms_px), ++count;
+  return count > 0 ? std::exp(sum / count) : 0;
 }
 
 // The focal length, principal point or distance that changed most, in shares of the focal length.
@@ -91,11 +104,12 @@ std::string what_moved(const Rig& before, const Rig& after, const BoardCapture& 
 
 void evaluate(Candidate& c, const BoardCapture& capture, const Rig& start, bool estimate_sigma,
               const LadderOptions& options) {
-  c.rung.terms = c.terms, c.rung.added = c.added;
-  c.fit = fit_rig(capture, model_of(c.terms, options), start, estimate_sigma);
+  c.rung.terms = c.terms, c.rung.bend = c.bend, c.rung.added = c.added;
+  c.fit = fit_rig(capture, model_of(c.terms, c.bend, options), start, estimate_sigma);
   if (!c.fit) return;
   c.rung.fit_rms_px = c.fit->rms_px;
   c.rung.held_out = hold_out_poses(c.fit->capture, c.fit->model, c.fit->adjustment.rig);
+  c.rung.typical_px = geometric_mean_px(c.rung.held_out);
   c.rung.scatter_px = scatter(c.rung.held_out);
   c.rung.solved = c.rung.held_out.failed.empty();
 }
@@ -108,12 +122,12 @@ void compare(Candidate& c, const Candidate& current, const BoardCapture& capture
 
 bool passes(const Candidate& c, const Candidate& current, const LadderOptions& options) {
   return c.rung.solved && c.rung.gain_over_error > options.least_gain_over_error &&
-         c.rung.held_out.rms_px < (1 - options.least_gain) * current.rung.held_out.rms_px;
+         c.rung.typical_px < (1 - options.least_gain) * current.rung.typical_px;
 }
 
 Candidate first_rung(const BoardCapture& capture, const Rig& start, bool estimate_sigma, const Terms& terms,
                      const LadderOptions& options) {
-  Candidate first{terms, "", {}, {}};
+  Candidate first{terms, options.bend == LadderOptions::Bend::on, ""};
   evaluate(first, capture, start, estimate_sigma, options);
   if (!first.fit) {
     std::string names;
@@ -148,7 +162,7 @@ Ladder climb(const BoardCapture& capture, const Rig& start, bool estimate_sigma,
   Ladder ladder;
   ladder.rungs.push_back(current.rung);
   while (capture.pose_count() >= 3) {
-    std::vector<Candidate> candidates = candidates_after(current.terms, capture);
+    std::vector<Candidate> candidates = candidates_after(current, capture, options);
     parallel_for(candidates.size(), [&](std::size_t i) {
       evaluate(candidates[i], capture, current.fit->adjustment.rig, estimate_sigma, options);
       compare(candidates[i], current, capture);
@@ -157,7 +171,7 @@ Ladder climb(const BoardCapture& capture, const Rig& start, bool estimate_sigma,
     for (std::size_t i = 0; i < candidates.size(); ++i) {
       if (!passes(candidates[i], current, options)) continue;
       if (best == candidates.size() ||
-          candidates[i].rung.held_out.rms_px < candidates[best].rung.held_out.rms_px)
+          candidates[i].rung.typical_px < candidates[best].rung.typical_px)
         best = i;
     }
     for (std::size_t i = 0; i < candidates.size(); ++i) {
