@@ -136,8 +136,8 @@ std::vector<std::string> strongest_correlations(const RigFit& fit, const RigCova
   std::vector<Pair> pairs;
   for (int i = 0; i < c.globals; ++i) {
     for (int j = i + 1; j < c.globals; ++j) {
-      const double rho = c.global[i * c.globals + j] /
-                         std::sqrt(c.global[i * c.globals + i] * c.global[j * c.globals + j]);
+      const double rho =
+          c.global[i * c.globals + j] / std::sqrt(c.global[i * c.globals + i] * c.global[j * c.globals + j]);
       if (std::abs(rho) > 0.95) pairs.push_back({rho, i, j});
     }
   }
@@ -151,9 +151,27 @@ std::vector<std::string> strongest_correlations(const RigFit& fit, const RigCova
   return words;
 }
 
+// The size of each lens parameter that moves some sighting by as many pixels as the focal length has.
+void add_lens_units(const RigProblem& problem, const Rig& rig, std::vector<double>& unit) {
+  std::vector<double> rows(2 * std::size_t(problem.row_columns() - 1));
+  std::vector<double> most(unit.size(), 0.0);
+  for (const Sighting& s : problem.sightings) {
+    double pixel[2];
+    if (!predict(problem, rig, s, pixel, rows.data())) continue;
+    const auto& columns = problem.columns.devices[s.device].intrinsics;
+    for (std::size_t i = 4; i < columns.size(); ++i) {
+      if (columns[i] < 0) continue;
+      const int at = problem.pose_columns() + columns[i];
+      most[columns[i]] = std::max(most[columns[i]], std::hypot(rows[at], rows[rows.size() / 2 + at]));
+      if (most[columns[i]] > 0) unit[columns[i]] = rig.devices[s.device].parameters[0] / most[columns[i]];
+    }
+  }
+}
+
 // The size of a natural step of each global parameter.
 std::vector<double> natural_units(const RigFit& fit) {
-  const RigColumns columns = columns_of(fit.model);
+  const RigProblem problem(fit.capture, fit.model);
+  const RigColumns& columns = problem.columns;
   std::vector<double> unit(columns.count, 1.0);
   double distance = 0;
   const Rig& rig = fit.adjustment.rig;
@@ -167,6 +185,7 @@ std::vector<double> natural_units(const RigFit& fit) {
   }
   for (int i = 0; i < 2 && columns.bend >= 0; ++i)
     unit[columns.bend + i] = std::max(fit.capture.extent.half_size.x, fit.capture.extent.half_size.y);
+  add_lens_units(problem, rig, unit);
   return unit;
 }
 
@@ -193,9 +212,9 @@ Diagnosis diagnose(const RigFit& fit, const RigCovariance& covariance, const Hel
   for (int k = 0; k < fit.capture.pose_count(); ++k) {
     d.poses.push_back(diagnose_pose(problem, fit, k));
     for (int l = 0; l < k; ++l)
-      d.tilt_spread_deg =
-          std::max(d.tilt_spread_deg, degrees(angle_between(rig.camera_from_board[k].rotation[2],
-                                                            rig.camera_from_board[l].rotation[2])));
+      d.tilt_spread_deg = std::max(
+          d.tilt_spread_deg,
+          degrees(angle_between(rig.camera_from_board[k].rotation[2], rig.camera_from_board[l].rotation[2])));
   }
   const int last = int(rig.devices.size()) - 1;
   for (int n = 0; n <= last; ++n) d.devices.push_back(diagnose_device(problem, fit, covariance, n));

@@ -40,16 +40,17 @@ struct Diagnosis {
   std::vector<DeviceDiagnosis> devices;
   double tilt_spread_deg = 0;  ///< largest angle between the normals of two boards
 
-  /// The volume of the last device: 16×12 pixels of its whole image × 12 depths over 5-95 % of its sightings'.
+  /// The volume of the last device: 16×12 pixels of its whole image × 12 depths over 5-95 % of its
+  /// sightings'.
   double predicted_volume_rms_px = 0;  ///< by the covariance, which takes noise as independent
-  /// Delete-one-pose jackknife of the same: sqrt((K-1)/K·Σ_k leverage_k²). It sees what the boards' poses have
-  /// in common too: correlated noise, a bent board, a lens that is modelled too simply. None where a pose
-  /// cannot be left out.
+  /// Delete-one-pose jackknife of the same: sqrt((K-1)/K·Σ_k leverage_k²). It sees what the boards' poses
+  /// have in common too: correlated noise, a bent board, a lens that is modelled too simply. None where a
+  /// pose cannot be left out.
   std::optional<double> jackknife_volume_rms_px;
   bool maps_its_volume = true;  ///< the lens gives every pixel of the image a ray
 
-  /// The weakest direction in natural units (shares of the focal length, radians, shares of the distance, lens
-  /// parameters as they are): its standard deviation, and which parameters it is made of.
+  /// The weakest direction in natural units (shares of the focal length, radians, shares of the distance,
+  /// lens parameters as they are): its standard deviation, and which parameters it is made of.
   double weakest_sigma = 0;
   std::string weakest_direction;
   std::vector<std::string> correlations;  ///< "projector cy and projector k1 correlate 0.98", the strongest

@@ -37,20 +37,22 @@ BoardCapture usable_poses(const BoardCapture& capture, std::vector<int>& unused_
 }
 
 bool is_flat(const BoardCapture& capture) {
-  return std::all_of(capture.sightings.begin(), capture.sightings.end(), [&](const Sighting& s) {
-    return s.x_board.z == capture.sightings.front().x_board.z;
-  });
+  return std::all_of(capture.sightings.begin(), capture.sightings.end(),
+                     [&](const Sighting& s) { return s.x_board.z == capture.sightings.front().x_board.z; });
 }
 
 // The generous model needs more poses than two; with fewer nothing is dropped.
 BoardCapture without_outliers(const BoardCapture& capture, const Rig& start, const BoardOptions& options,
                               BoardCalibration& result) {
   if (!(options.drop_beyond_sigmas > 0) || capture.pose_count() < 3) return capture;
-  auto outliers =
-      drop_outliers(capture, generous_model(capture), start, options.drop_beyond_sigmas);
+  auto outliers = drop_outliers(capture, generous_model(capture), start, options.drop_beyond_sigmas);
   if (!outliers || outliers->dropped.empty()) return capture;
   result.dropped = std::move(outliers->dropped);
   result.dropped_residual_px = std::move(outliers->residual_px);
+  for (const Sighting& s : result.dropped) {
+    result.dropped_devices.push_back(capture.devices[s.device].name);
+    result.dropped_poses.push_back(capture.pose_labels[s.pose]);
+  }
   if (!options.estimate_sigma) {  // the believed sigmas come back
     BoardCapture kept = capture;
     std::erase_if(kept.sightings, [&](const Sighting& s) {
@@ -77,16 +79,19 @@ void add_capture_weaknesses(const BoardCalibration& r, const BoardCapture& captu
                             std::vector<std::string>& weak) {
   const int poses = r.ladder.fit.capture.pose_count();
   if (poses < 3)
-    weak.push_back(fmt::format("only {} poses: none can be held out to test the result; {}", poses, more_poses));
+    weak.push_back(
+        fmt::format("only {} poses: none can be held out to test the result; {}", poses, more_poses));
   if (r.diagnosis.tilt_spread_deg < 10)
-    weak.push_back(fmt::format("the boards are nearly parallel (their normals within {:.1f}°): focal length and "
-                               "distance trade off; add poses tilted by 20° to 40° about both axes",
-                               r.diagnosis.tilt_spread_deg));
+    weak.push_back(
+        fmt::format("the boards are nearly parallel (their normals within {:.1f}°): focal length and "
+                    "distance trade off; add poses tilted by 20° to 40° about both axes",
+                    r.diagnosis.tilt_spread_deg));
   const double share = double(r.dropped.size()) / double(std::max<std::size_t>(1, capture.sightings.size()));
   if (share > 0.05)
-    weak.push_back(fmt::format("{:.0f} % of the sightings are outliers; look at the dropped corners, and at "
-                               "the board's measures",
-                               100 * share));
+    weak.push_back(
+        fmt::format("{:.0f} % of the sightings are outliers; look at the dropped corners, and at "
+                    "the board's measures",
+                    100 * share));
 }
 
 void add_forecast_weaknesses(const BoardCalibration& r, const BoardOptions& options,
@@ -96,14 +101,15 @@ void add_forecast_weaknesses(const BoardCalibration& r, const BoardOptions& opti
   if (r.ladder.fit.capture.pose_count() >= 3 && !held_out.failed.empty()) {
     std::vector<int> labels;
     for (const int k : held_out.failed) labels.push_back(r.ladder.fit.capture.pose_labels[k]);
-    weak.push_back(fmt::format("there is no solution without pose {}; {}", fmt::join(labels, ", "), more_poses));
+    weak.push_back(
+        fmt::format("there is no solution without pose {}; {}", fmt::join(labels, ", "), more_poses));
   }
   const double predicted = std::max(d.predicted_volume_rms_px, d.jackknife_volume_rms_px.value_or(0));
   if (!(predicted <= options.tolerance_px)) {
-    weak.push_back(
-        fmt::format("the predicted error over the projector's whole image is {:.2g} px, above the tolerance of "
-                    "{:.2g} px ({}); {}",
-                    predicted, options.tolerance_px, d.weakest_direction, cure_for(d.weakest_direction)));
+    weak.push_back(fmt::format(
+        "the predicted error over the projector's whole image is {:.2g} px, above the tolerance of "
+        "{:.2g} px ({}); {}",
+        predicted, options.tolerance_px, d.weakest_direction, cure_for(d.weakest_direction)));
   }
   if (const double share = focal_sigma_share(r); !(share <= 0.02)) {
     weak.push_back(fmt::format("a focal length is known to {:.2g} % only ({}); {}", 100 * share,
@@ -127,9 +133,10 @@ void add_residual_weakness(const BoardCalibration& r, const BoardOptions& option
       if (s.device == int(d)) believed += s.sigma_px * s.sigma_px, ++count;
     const double ratio = fit.sigma_px[d] / std::sqrt(believed / std::max(1.0, count));
     if (ratio > 2)
-      weak.push_back(fmt::format("{}: the residuals are {:.2g} times what the sigmas explain: a lens modelled "
-                                 "too simply, a bent board or outliers",
-                                 fit.capture.devices[d].name, ratio));
+      weak.push_back(
+          fmt::format("{}: the residuals are {:.2g} times what the sigmas explain: a lens modelled "
+                      "too simply, a bent board or outliers",
+                      fit.capture.devices[d].name, ratio));
   }
 }
 
@@ -186,9 +193,9 @@ BoardCalibration calibrate_boards(const BoardCapture& capture, const BoardOption
   if (!start.rig) return refuse(result, start.refusal);
   const BoardCapture kept = without_outliers(usable, *start.rig, options, result);
   try {
-    result.ladder = options.terms.empty()
-                        ? climb(kept, *start.rig, options.estimate_sigma, options.ladder)
-                        : single_rung(kept, *start.rig, options.estimate_sigma, options.terms, options.ladder);
+    result.ladder = options.terms.empty() ? climb(kept, *start.rig, options.estimate_sigma, options.ladder)
+                                          : single_rung(kept, *start.rig, options.estimate_sigma,
+                                                        options.terms, options.ladder);
   } catch (const Refusal& refusal) {
     return refuse(result, fmt::format("{}; {}", refusal.what(), more_poses));
   }

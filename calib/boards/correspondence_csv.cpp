@@ -19,7 +19,7 @@ namespace laterna {
 namespace {
 
 constexpr std::array<const char*, 10> table_columns = {"pose",  "corner", "board_x", "board_y", "board_z",
-                                                      "cam_x", "cam_y",  "proj_x",  "proj_y",  "valid"};
+                                                       "cam_x", "cam_y",  "proj_x",  "proj_y",  "valid"};
 enum Column { pose, corner, board_x, board_y, board_z, cam_x, cam_y, proj_x, proj_y, valid };
 
 std::string_view trimmed(std::string_view text) {
@@ -76,7 +76,7 @@ struct Line {
 
 // For each known column, where it stands in the file.
 std::array<std::size_t, table_columns.size()> columns_of(const std::vector<std::string_view>& header,
-                                                        const std::string& place) {
+                                                         const std::string& place) {
   std::array<std::size_t, table_columns.size()> at{};
   for (std::size_t c = 0; c < table_columns.size(); ++c) {
     const auto found = std::find(header.begin(), header.end(), table_columns[c]);

@@ -38,6 +38,14 @@ std::vector<std::string> next_terms(const std::vector<std::string>& terms) {
   return next;
 }
 
+// In the order in which OpenCV's models have them.
+std::vector<std::string> with_term(const std::vector<std::string>& terms, const std::string& term) {
+  std::vector<std::string> all;
+  for (const std::string& t : lens_terms("opencv12"))
+    if (t == term || has(terms, t.c_str())) all.push_back(t);
+  return all;
+}
+
 std::vector<Candidate> candidates_after(const Candidate& current, const BoardCapture& capture,
                                         const LadderOptions& options) {
   const Terms& terms = current.terms;
@@ -48,7 +56,7 @@ std::vector<Candidate> candidates_after(const Candidate& current, const BoardCap
   for (std::size_t d = 0; d < terms.size(); ++d) {
     for (const std::string& term : next_terms(terms[d])) {
       Candidate c{terms, current.bend, capture.devices[d].name + " " + term};
-      c.terms[d].push_back(term);
+      c.terms[d] = with_term(terms[d], term);
       candidates.push_back(std::move(c));
     }
   }
@@ -170,8 +178,7 @@ Ladder climb(const BoardCapture& capture, const Rig& start, bool estimate_sigma,
     std::size_t best = candidates.size();
     for (std::size_t i = 0; i < candidates.size(); ++i) {
       if (!passes(candidates[i], current, options)) continue;
-      if (best == candidates.size() ||
-          candidates[i].rung.typical_px < candidates[best].rung.typical_px)
+      if (best == candidates.size() || candidates[i].rung.typical_px < candidates[best].rung.typical_px)
         best = i;
     }
     for (std::size_t i = 0; i < candidates.size(); ++i) {

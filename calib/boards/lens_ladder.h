@@ -44,19 +44,21 @@ struct LadderOptions {
 double paired_gain_over_error(const HeldOut& before, const HeldOut& after);
 
 /// Climbs from pinhole with free centre. Each step tries every term that may come next on each device (k1;
-/// then k2 and p1p2; k3 after k2; k456 after k3), the board's bend and, first of all, k1 on all devices at once. Every candidate
-/// is fitted (fit_rig) and leaves each pose out in turn. It passes where every fold solves, the paired gain
-/// over the folds is above `least_gain_over_error` standard errors, and the geometric mean of the folds' rms
-/// falls by `least_gain`. Of those that pass, the one with the smallest geometric mean is the next rung; with
-/// none the climb ends. (A mean of logarithms, since one fold that extrapolates far would drown the others in a
-/// mean of squares.) The held-out rms of the winner is the least of several and so a little too good.
+/// then k2 and p1p2; k3 after k2; k456 after k3), the board's bend and, first of all, k1 on all devices at
+/// once. Every candidate is fitted (fit_rig) and leaves each pose out in turn. It passes where every fold
+/// solves, the paired gain over the folds is above `least_gain_over_error` standard errors, and the geometric
+/// mean of the folds' rms falls by `least_gain`. Of those that pass, the one with the smallest geometric mean
+/// is the next rung; with none the climb ends. (A mean of logarithms, since one fold that extrapolates far
+/// would drown the others in a mean of squares.) The held-out rms of the winner is the least of several and
+/// so a little too good.
 ///
 /// Fewer than three poses leave nothing to test: the first rung is the last. Throws Refusal where pinhole
 /// itself cannot be fitted.
 Ladder climb(const BoardCapture& capture, const Rig& start, bool estimate_sigma,
              const LadderOptions& options = {});
 
-/// The one rung of a given model, as on the ladder; the bend is free only with Bend::on. Throws Refusal where it cannot be fitted.
+/// The one rung of a given model, as on the ladder; the bend is free only with Bend::on. Throws Refusal where
+/// it cannot be fitted.
 Ladder single_rung(const BoardCapture& capture, const Rig& start, bool estimate_sigma,
                    const std::vector<std::vector<std::string>>& terms, const LadderOptions& options = {});
 

@@ -53,8 +53,7 @@ DeviceModel model_of_terms(const std::vector<std::string>& terms) {
   for (const std::string& name : terms) {
     const Term* term = find_term(name);
     if (!term)
-      throw InputError(
-          fmt::format("lens term is \"{}\", expected k1, k2, p1p2, k3, k456 or s1234", name));
+      throw InputError(fmt::format("lens term is \"{}\", expected k1, k2, p1p2, k3, k456 or s1234", name));
     for (int i = term->begin; i < term->end; ++i) free[i] = true;
     last = std::max(last, term->end);
   }

@@ -50,8 +50,7 @@ std::optional<RigCovariance> rig_covariance(const RigProblem& problem, const Adj
     if (!(s.back() > 1e-10 * s.front())) return std::nullopt;
   }
   const RowMajor r = square(c.factor, c.globals + 1).topLeftCorner(c.globals, c.globals);
-  const RowMajor inverse =
-      r.triangularView<Eigen::Upper>().solve(RowMajor::Identity(c.globals, c.globals));
+  const RowMajor inverse = r.triangularView<Eigen::Upper>().solve(RowMajor::Identity(c.globals, c.globals));
   c.global = values_of(inverse * inverse.transpose());
   for (const auto& factor : adjustment.pose_factors) {
     if (problem.pose_columns() > 0 && !append_pose(factor, c.globals, c)) return std::nullopt;
@@ -88,8 +87,7 @@ std::optional<glm::dvec3> pixel_covariance(const RigProblem& problem, const Rig&
     g[r] = {dx[3 * r], dx[3 * r + 1], dx[3 * r + 2]};
     for (int i = 0; i < k; ++i)
       if (of.intrinsics[i] >= 0) global(r, of.intrinsics[i]) += dk[r * k + i];
-    if (of.pose >= 0)
-      add_pose_row(&global(r, of.pose), x_device - d.device_from_camera.translation, g[r]);
+    if (of.pose >= 0) add_pose_row(&global(r, of.pose), x_device - d.device_from_camera.translation, g[r]);
   }
   const double share = 1.0 / std::max<double>(1, double(c.pose_own.size()));
   for (std::size_t n = 0; n < c.pose_own.size(); ++n) {

@@ -9,13 +9,14 @@
 namespace laterna {
 
 /// (JᵀJ)⁻¹ of all free parameters (tangent, as moved() takes them), from the pose factors: the global block,
-/// and for pose k with the rows [P G] of its factor, A_k = -P⁻¹·G and the rest that is its own. A step of pose
-/// k is A_k·δ_global + ε_k with ε_k independent. This is the Cramér-Rao bound where the sigmas are true.
+/// and for pose k with the rows [P G] of its factor, A_k = -P⁻¹·G and the rest that is its own. A step of
+/// pose k is A_k·δ_global + ε_k with ε_k independent. This is the Cramér-Rao bound where the sigmas are true.
 struct RigCovariance {
   int globals = 0;
-  std::vector<double> global;                         ///< row-major globals²
-  std::vector<std::vector<double>> pose_from_global;  ///< A_k, row-major 6×globals; empty where poses are held
-  std::vector<std::vector<double>> pose_own;          ///< covariance of ε_k, row-major 6×6
+  std::vector<double> global;  ///< row-major globals²
+  std::vector<std::vector<double>>
+      pose_from_global;                       ///< A_k, row-major 6×globals; empty where poses are held
+  std::vector<std::vector<double>> pose_own;  ///< covariance of ε_k, row-major 6×6
   std::vector<double> factor;  ///< R of all rows [J_global r], poses eliminated; (globals + 1)², row-major
 };
 
