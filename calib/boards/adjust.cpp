@@ -25,14 +25,6 @@ Rigid rigid_of(const double* b) {
   return rigid_from_quaternion(glm::dquat(b[3], b[0], b[1], b[2]), glm::dvec3(b[4], b[5], b[6]));
 }
 
-// The rig as Ceres holds it: for each device that is not held its free intrinsics and, but for device 0, its
-// place; the bend; the poses.
-struct Blocks {
-  std::vector<std::vector<double>> intrinsics;
-  std::vector<PoseBlock> places, poses;
-  std::array<double, 2> bend{};
-};
-
 // A block among a pose's columns. Of a device: its intrinsics, or its place (ambient size 7, tangent 6).
 struct Slot {
   enum class Kind { intrinsics, place, bend, board_pose } kind;
@@ -42,35 +34,44 @@ struct Slot {
   bool is_pose() const { return kind == Kind::place || kind == Kind::board_pose; }
 };
 
-Blocks blocks_of(const RigProblem& problem, const Rig& rig) {
-  Blocks b;
-  for (std::size_t d = 0; d < rig.devices.size(); ++d) {
-    const auto& columns = problem.columns.devices[d].intrinsics;
-    std::vector<double> free;
-    for (std::size_t i = 0; i < columns.size(); ++i)  // fx and fy may share a column
-      if (columns[i] >= 0 && (i == 0 || columns[i] != columns[i - 1]))
-        free.push_back(rig.devices[d].parameters[i]);
-    b.intrinsics.push_back(std::move(free));
-    b.places.push_back(block_of(rig.devices[d].device_from_camera));
+// The rig as Ceres holds it, in one piece: Ceres orders blocks by address, and the order must not change.
+struct Blocks {
+  std::vector<double> values;
+  std::vector<Slot> global;    // for each device its free intrinsics and its place; the bend
+  std::vector<double*> poses;  // empty where they are held
+
+  template <class Values>
+  double* append(const Values& added) {
+    values.insert(values.end(), added.begin(), added.end());
+    return values.data() + (values.size() - added.size());
   }
-  for (const Rigid& pose : rig.camera_from_board) b.poses.push_back(block_of(pose));
-  b.bend = {rig.bend.x, rig.bend.y};
-  return b;
+};
+
+std::vector<double> free_intrinsics(const std::vector<int>& columns, const std::vector<double>& parameters) {
+  std::vector<double> free;
+  for (std::size_t i = 0; i < columns.size(); ++i)  // fx and fy may share a column
+    if (columns[i] >= 0 && (i == 0 || columns[i] != columns[i - 1])) free.push_back(parameters[i]);
+  return free;
 }
 
-// The blocks of the global columns, in the columns' order.
-std::vector<Slot> global_slots(const RigProblem& problem, Blocks& b) {
-  std::vector<Slot> slots;
-  for (std::size_t d = 0; d < b.intrinsics.size(); ++d) {
+void fill(Blocks& b, const RigProblem& problem, const Rig& rig) {
+  b.values.reserve(std::size_t(problem.columns.count) + rig.devices.size() +
+                   7 * rig.camera_from_board.size());  // so that nothing moves
+  for (int d = 0; d < int(rig.devices.size()); ++d) {
     const RigColumns::Of& of = problem.columns.devices[d];
-    if (!b.intrinsics[d].empty())
-      slots.push_back({Slot::Kind::intrinsics, int(d), b.intrinsics[d].data(), int(b.intrinsics[d].size()),
-                       of.intrinsics[0]});
-    if (of.pose >= 0) slots.push_back({Slot::Kind::place, int(d), b.places[d].data(), 6, of.pose});
+    const std::vector<double> free = free_intrinsics(of.intrinsics, rig.devices[d].parameters);
+    if (!free.empty())
+      b.global.push_back({Slot::Kind::intrinsics, d, b.append(free), int(free.size()), of.intrinsics[0]});
+    if (of.pose < 0) continue;
+    double* place = b.append(block_of(rig.devices[d].device_from_camera));
+    b.global.push_back({Slot::Kind::place, d, place, 6, of.pose});
   }
-  if (problem.columns.bend >= 0)
-    slots.push_back({Slot::Kind::bend, 0, b.bend.data(), 2, problem.columns.bend});
-  return slots;
+  if (problem.columns.bend >= 0) {
+    double* bend = b.append(std::array<double, 2>{rig.bend.x, rig.bend.y});
+    b.global.push_back({Slot::Kind::bend, 0, bend, 2, problem.columns.bend});
+  }
+  for (const Rigid& pose : rig.camera_from_board)
+    if (problem.pose_columns() > 0) b.poses.push_back(b.append(block_of(pose)));
 }
 
 void write_rig(const RigProblem& problem, const std::vector<Slot>& slots, double const* const* values,
@@ -100,8 +101,7 @@ class PoseResidual : public ceres::CostFunction {
   }
 
   bool Evaluate(double const* const* values, double* residuals, double** jacobians) const override {
-    thread_local Rig rig;
-    rig = start_;
+    Rig rig = start_;
     write_rig(problem_, slots_, values, rig);
     if (problem_.pose_columns() > 0) rig.camera_from_board[pose_] = rigid_of(values[slots_.size()]);
     const int n = problem_.row_columns();
@@ -155,20 +155,19 @@ class PoseResidual : public ceres::CostFunction {
   const int pose_;
 };
 
-void build(ceres::Problem& ceres_problem, const RigProblem& problem, const Rig& start, Blocks& blocks) {
-  const std::vector<Slot> slots = global_slots(problem, blocks);
+void build(ceres::Problem& ceres_problem, const RigProblem& problem, const Rig& start, const Blocks& blocks) {
   for (int k = 0; k < problem.pose_count(); ++k) {
     std::vector<double*> data;
-    for (const Slot& slot : slots) data.push_back(slot.data);
-    if (problem.pose_columns() > 0) data.push_back(blocks.poses[k].data());
-    ceres_problem.AddResidualBlock(new PoseResidual(problem, start, slots, k), nullptr, data);
-    if (problem.pose_columns() > 0) ceres_problem.SetManifold(blocks.poses[k].data(), new PoseManifold);
+    for (const Slot& slot : blocks.global) data.push_back(slot.data);
+    if (!blocks.poses.empty()) data.push_back(blocks.poses[k]);
+    ceres_problem.AddResidualBlock(new PoseResidual(problem, start, blocks.global, k), nullptr, data);
+    if (!blocks.poses.empty()) ceres_problem.SetManifold(blocks.poses[k], new PoseManifold);
   }
-  for (const Slot& slot : slots)
+  for (const Slot& slot : blocks.global)
     if (slot.is_pose() && problem.pose_count() > 0) ceres_problem.SetManifold(slot.data, new PoseManifold);
 }
 
-ceres::Solver::Options solver_options(const RigProblem& problem, Blocks& blocks, int max_iterations) {
+ceres::Solver::Options solver_options(const Blocks& blocks, int max_iterations) {
   ceres::Solver::Options o;
   o.max_num_iterations = max_iterations;
   o.function_tolerance = 1e-15;
@@ -176,16 +175,15 @@ ceres::Solver::Options solver_options(const RigProblem& problem, Blocks& blocks,
   o.parameter_tolerance = 1e-13;
   o.max_num_consecutive_invalid_steps = 50;
   o.initial_trust_region_radius = 1e6;
-  o.max_trust_region_radius = 1e11;  // some damping always, or Cholesky of a weak problem fails
+  o.max_trust_region_radius = 1e8;  // some damping always, or Cholesky of a weak problem fails
   o.num_threads = 1;
   o.logging_type = ceres::SILENT;
   o.linear_solver_type = ceres::DENSE_QR;
-  if (problem.pose_columns() == 0 || problem.columns.count == 0) return o;
+  if (blocks.poses.empty() || blocks.global.empty()) return o;
   o.linear_solver_type = ceres::DENSE_SCHUR;
   o.linear_solver_ordering = std::make_shared<ceres::ParameterBlockOrdering>();
-  for (PoseBlock& pose : blocks.poses) o.linear_solver_ordering->AddElementToGroup(pose.data(), 0);
-  for (const Slot& slot : global_slots(problem, blocks))
-    o.linear_solver_ordering->AddElementToGroup(slot.data, 1);
+  for (double* pose : blocks.poses) o.linear_solver_ordering->AddElementToGroup(pose, 0);
+  for (const Slot& slot : blocks.global) o.linear_solver_ordering->AddElementToGroup(slot.data, 1);
   return o;
 }
 
@@ -206,21 +204,21 @@ bool finish(const RigProblem& problem, Adjustment& result) {
 std::optional<Adjustment> adjust(const RigProblem& problem, const Rig& start, int max_iterations) {
   for (int k = 0; k < problem.pose_count(); ++k)
     if (!squared_residuals(problem, start, k)) return std::nullopt;
-  Blocks blocks = blocks_of(problem, start);
+  Blocks blocks;
+  fill(blocks, problem, start);
   ceres::Problem ceres_problem;
   build(ceres_problem, problem, start, blocks);
   ceres::Solver::Summary summary;
-  ceres::Solve(solver_options(problem, blocks, max_iterations), &ceres_problem, &summary);
+  ceres::Solve(solver_options(blocks, max_iterations), &ceres_problem, &summary);
   if (!summary.IsSolutionUsable()) return std::nullopt;
 
   Adjustment result;
   result.rig = start;
-  const std::vector<Slot> slots = global_slots(problem, blocks);
   std::vector<const double*> values;
-  for (const Slot& slot : slots) values.push_back(slot.data);
-  write_rig(problem, slots, values.data(), result.rig);
-  for (int k = 0; k < problem.pose_count() && problem.pose_columns() > 0; ++k)
-    result.rig.camera_from_board[k] = rigid_of(blocks.poses[k].data());
+  for (const Slot& slot : blocks.global) values.push_back(slot.data);
+  write_rig(problem, blocks.global, values.data(), result.rig);
+  for (std::size_t k = 0; k < blocks.poses.size(); ++k)
+    result.rig.camera_from_board[k] = rigid_of(blocks.poses[k]);
   result.converged = summary.termination_type == ceres::CONVERGENCE;
   result.iterations = int(summary.iterations.size()) - 1;
   result.termination = summary.message;
