@@ -170,7 +170,7 @@ void build(ceres::Problem& ceres_problem, const RigProblem& problem, const Rig& 
 ceres::Solver::Options solver_options(const Blocks& blocks, int max_iterations) {
   ceres::Solver::Options o;
   o.max_num_iterations = max_iterations;
-  o.function_tolerance = 1e-15;
+  o.function_tolerance = 1e-12;  // some 1e-5 sigma from the minimum; less is rounding of the cost
   o.gradient_tolerance = 1e-16;
   o.parameter_tolerance = 1e-13;
   o.max_num_consecutive_invalid_steps = 50;
