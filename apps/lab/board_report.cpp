@@ -241,4 +241,38 @@ std::string board_text(const BoardCalibration& c) {
          fmt::format("verdict: {}{}{}\n", status_word(c.status), c.reason.empty() ? "" : ": ", c.reason);
 }
 
+Json methods_json(const std::vector<MethodResult>& results) {
+  Json methods = Json::array();
+  for (const MethodResult& r : results) {
+    Json json = {{"method", r.name}, {"failure", r.failure}, {"seconds", number(r.seconds)}};
+    if (r.rig) {
+      Json folds = Json::array();
+      for (const HeldOutPose& fold : r.held_out.folds) folds.push_back(number(fold.rms_px));
+      const std::vector<double>& k = r.rig->devices.back().parameters;
+      json["fit_rms_px"] = r.fit_rms_px;
+      json["held_out_px"] = {
+          {"rms", number(r.held_out.rms_px)}, {"folds", folds}, {"failed", r.held_out.failed.size()}};
+      json["projector"] = {{"fx", k[0]}, {"fy", k[1]}, {"cx", k[2]}, {"cy", k[3]}};
+    }
+    methods.push_back(std::move(json));
+  }
+  return methods;
+}
+
+std::string methods_text(const std::vector<MethodResult>& results) {
+  std::string text = fmt::format("{:<16} {:>14} {:>9} {:>6} {:>9}  {}\n", "method", "fit px", "held-out",
+                                 "failed", "seconds", "projector fx, fy, cx, cy");
+  for (const MethodResult& r : results) {
+    if (!r.rig) {
+      text += fmt::format("{:<16} {}\n", r.name, r.failure);
+      continue;
+    }
+    const std::vector<double>& k = r.rig->devices.back().parameters;
+    text += fmt::format("{:<16} {:>14} {:>9.4f} {:>6} {:>9.4f}  {:.1f}, {:.1f}, {:.1f}, {:.1f}\n", r.name,
+                        fmt::format("{:.3f}", fmt::join(r.fit_rms_px, " ")), r.held_out.rms_px,
+                        r.held_out.failed.size(), r.seconds, k[0], k[1], k[2], k[3]);
+  }
+  return text;
+}
+
 }  // namespace laterna

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "calib/boards/calibrate_boards.h"
+#include "calib/peers/board_methods.h"
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -21,5 +22,12 @@ nlohmann::json board_json(const BoardCalibration& calibration);
 
 /// The same as a report to read: ladder, parameters with sigmas, poses, how sure the pixels are, verdict.
 std::string board_text(const BoardCalibration& calibration);
+
+/// [{"method", "failure", "fit_rms_px", "held_out_px": {"rms", "folds", "failed"}, "seconds", "projector":
+/// {"fx", "fy", "cx", "cy"}}]: every method on the same sightings.
+nlohmann::json methods_json(const std::vector<MethodResult>& results);
+
+/// The same as a table.
+std::string methods_text(const std::vector<MethodResult>& results);
 
 }  // namespace laterna

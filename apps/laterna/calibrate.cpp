@@ -100,7 +100,7 @@ void add_calibrate(CLI::App& app, Common& common) {
     check_output(words->out);
     if (!is_table(words->folder)) {
       for (const char* option :
-           {"--camera-size", "--lens", "--board-bend", "--one-focal-length", "--fixed-center"})
+           {"--camera-size", "--lens", "--board-bend", "--one-focal-length", "--fixed-center", "--compare"})
         if (command->count(option) > 0)
           throw InputError(fmt::format("{}: {} is for a table of correspondences, expected FILE.csv",
                                        words->folder, option));

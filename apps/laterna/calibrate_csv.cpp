@@ -50,6 +50,10 @@ void add_csv_words(CLI::App& command, CsvWords& words) {
   command.add_flag("--one-focal-length", words.one_focal_length, "For a FILE.csv: fx = fy in each device");
   command.add_flag("--fixed-center", words.fixed_center,
                    "For a FILE.csv: the principal point stays in the middle of each image");
+  command.add_flag(
+      "--compare", words.compare,
+      "For a FILE.csv: runs OpenCV's, mrcal's and the stepwise solve on the same sightings with the "
+      "same lens model");
 }
 
 int calibrate_csv(const std::string& file, const std::string& projector_size, const std::string& out,
@@ -63,9 +67,15 @@ int calibrate_csv(const std::string& file, const std::string& projector_size, co
   const BoardCapture capture = read_correspondence_csv(file, size_of(words.camera_size, "--camera-size"),
                                                        size_of(projector_size, "--projector-size"));
   const BoardCalibration calibration = calibrate_boards(capture, options);
-  const std::string json = board_json(calibration).dump(2) + "\n";
-  if (!out.empty()) write_file(out, json);
-  fmt::print("{}", common.json ? json : board_text(calibration));
+  std::vector<MethodResult> methods;
+  if (words.compare && calibration.status != Status::refused)
+    methods = compare_board_methods(calibration.ladder.fit.capture, calibration.ladder.fit.model);
+  nlohmann::json json = board_json(calibration);
+  if (words.compare) json["methods"] = methods_json(methods);
+  const std::string text = json.dump(2) + "\n";
+  if (!out.empty()) write_file(out, text);
+  fmt::print("{}", common.json ? text : board_text(calibration));
+  if (!methods.empty() && !common.json) fmt::print("\n{}", methods_text(methods));
   if (!out.empty() && !common.json) fmt::print("open {}\n", out);
   if (calibration.status == Status::refused) return exit_refused;
   return calibration.status == Status::weak ? exit_weak : exit_ok;

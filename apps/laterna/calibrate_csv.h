@@ -12,10 +12,11 @@ namespace laterna {
 /// The command line's own words for boards.
 struct CsvWords {
   std::string camera_size, lens = "auto", bend = "auto";
-  bool one_focal_length = false, fixed_center = false;
+  bool one_focal_length = false, fixed_center = false, compare = false;
 };
 
-/// Adds --camera-size, --lens, --board-bend, --one-focal-length and --fixed-center.
+/// Adds --camera-size, --lens, --board-bend, --one-focal-length,
+/// --fixed-center and --compare.
 void add_csv_words(CLI::App& command, CsvWords& words);
 
 /// Calibrates, prints, and writes the JSON to `out` unless that is empty. Returns the exit code.
