@@ -14,6 +14,8 @@ namespace laterna {
 
 namespace {
 
+constexpr double start_sigma_px = 1;  // a start is good or bad in pixels, whatever the noise
+
 struct PosePoints {
   std::vector<cv::Point3f> board;
   std::vector<cv::Point2f> pixel;
@@ -80,7 +82,9 @@ std::optional<Adjustment> camera_from_focal(const BoardCapture& capture, double 
     if (!pose) return std::nullopt;
     rig.camera_from_board.push_back(*pose);
   }
-  return adjust({seen_by(capture, 0), camera_alone(capture), {RobustLoss::Kind::cauchy, 3}}, rig);
+  BoardCapture camera = seen_by(capture, 0);
+  for (Sighting& s : camera.sightings) s.sigma_px = start_sigma_px;
+  return adjust({camera, camera_alone(capture), {RobustLoss::Kind::cauchy, 3}}, rig, 100);
 }
 
 std::optional<Rig> start_camera(const BoardCapture& capture) {
@@ -93,7 +97,7 @@ std::optional<Rig> start_camera(const BoardCapture& capture) {
   const double zhang = focal_from_homographies(capture);
   if (zhang > 0) consider(zhang);
   const double corners = double(seen_by(capture, 0).sightings.size());
-  if (!best || best->loss > 4 * corners) {  // beyond some 2 px rms
+  if (!best || best->loss > 9 * corners) {  // beyond some 3 px rms
     for (const double throw_ratio : {0.5, 1.0, 2.0, 5.0}) consider(throw_ratio * capture.devices[0].size.x);
   }
   if (!best) return std::nullopt;
@@ -107,7 +111,7 @@ std::string start_device(const BoardCapture& capture, int d, Rig& rig) {
     if (s.device != d) continue;
     c.world_points.push_back(apply(rig.camera_from_board[s.pose], s.x_board));
     c.projector_pixels.push_back(s.pixel);
-    c.sigma_px.push_back(s.sigma_px);
+    c.sigma_px.push_back(start_sigma_px);
   }
   const std::string& name = capture.devices[d].name;
   const LensGradient pinhole("LENSMODEL_PINHOLE");
