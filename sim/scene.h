@@ -52,6 +52,8 @@ struct Camera {
   Sensor sensor;
   Vignetting vignetting{};
   std::shared_ptr<const Image<float>> vignetting_map{};  ///< empty where `vignetting` has none
+  int samples_per_pixel = 1;  ///< rays, with antialiasing, camera_defocus or diffraction
+  Optics optics{};
 };
 
 enum class PatternKind { gray, slide };  ///< slide: one picture from a file

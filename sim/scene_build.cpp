@@ -156,6 +156,13 @@ void name_devices(std::vector<Spec>& devices, const char* kind) {
   }
 }
 
+void switch_off_lenses(Scene& scene) {
+  if (!scene.effects.projector_lens)
+    for (Projector& projector : scene.projectors) projector.device.lens = {};
+  if (!scene.effects.camera_lens)
+    for (Camera& camera : scene.cameras) camera.device.lens = {};
+}
+
 std::string mesh_name(const MeshSpec& mesh) {
   if (mesh.file.empty()) return mesh.shape;
   std::filesystem::path stem = std::filesystem::path(mesh.file).filename();
@@ -251,8 +258,10 @@ Scene build_scene(const SceneSpec& spec, const std::filesystem::path& folder) {
     const std::string what = heading("camera", c.device.name);
     check(c);
     scene.cameras.push_back({device_of(c.device, folder, what), c.sensor, c.vignetting,
-                             about(what, [&] { return vignetting_map(c.vignetting, folder); })});
+                             about(what, [&] { return vignetting_map(c.vignetting, folder); }),
+                             c.samples_per_pixel, c.optics});
   }
+  switch_off_lenses(scene);
   if (spec.effects.slide) {
     scene.slide = std::make_shared<const Slide>(
         Slide{about("[patterns]",

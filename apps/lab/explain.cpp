@@ -22,29 +22,46 @@ struct Captured {
   std::vector<CapturedStack> stacks;  // one per view
   std::vector<DecodedMap> maps;
   std::vector<double> saturations;
+  std::vector<int> projectors;
   double entries_per_pixel = 0, seconds = 0;
 };
 
-// At the given exposures, or, where there are none, at those that suit the scene.
-Captured capture_all(const Scene& scene, std::uint64_t seed, const std::vector<double>& saturations) {
+// Traces and captures every view once, at the given exposures or, where there are none, at those that suit
+// the scene.
+Captured capture_once(const Scene& scene, std::uint64_t seed, const std::vector<double>& saturations) {
   StageTimes times;
   Captured captured;
   Traced traced = trace(scene, times);
-  double lit = 0, pixels = 0;
+  double entries = 0, pixels = 0;
   for (std::size_t i = 0; i < traced.views.size(); ++i) {
     View& view = traced.views[i];
     if (!saturations.empty()) view.saturation_cd_per_m2 = saturations[i];
     captured.saturations.push_back(view.saturation_cd_per_m2);
     captured.stacks.push_back(capture_view(scene, traced, view, seed, times));
-    if (!scene.effects.slide) {
-      captured.maps.push_back(decode_gray(captured.stacks.back(),
-                                          input_size(scene.effects, scene.projectors[view.projector]), {}));
-    }
-    for (std::size_t p = 0; p < view.light.why.values.size(); ++p) lit += view.light.lit(p);
+    captured.projectors.push_back(view.projector);
+    entries += mean_entries(view_rows(scene, traced, view, seed)) * double(view.light.why.values.size());
     pixels += double(view.light.why.values.size());
   }
-  captured.entries_per_pixel = pixels > 0 ? lit / pixels : 0;
+  captured.entries_per_pixel = pixels > 0 ? entries / pixels : 0;
   captured.seconds = times.total();
+  return captured;
+}
+
+// The same with the seconds of the median of several runs, and decoded.
+Captured capture_all(const Scene& scene, std::uint64_t seed, const std::vector<double>& saturations) {
+  constexpr int runs = 3;
+  Captured captured;
+  std::vector<double> seconds;
+  for (int run = 0; run < runs; ++run) {
+    captured = capture_once(scene, seed, saturations);
+    seconds.push_back(captured.seconds);
+  }
+  std::nth_element(seconds.begin(), seconds.begin() + runs / 2, seconds.end());
+  captured.seconds = seconds[runs / 2];
+  for (std::size_t i = 0; i < captured.stacks.size() && !scene.effects.slide; ++i) {
+    const Projector& projector = scene.projectors[captured.projectors[i]];
+    captured.maps.push_back(decode_gray(captured.stacks[i], input_size(scene.effects, projector), {}));
+  }
   return captured;
 }
 

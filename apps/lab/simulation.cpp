@@ -1,8 +1,9 @@
 #include "apps/lab/simulation.h"
 
+#include "render/automatic_exposure.h"
 #include "render/effects/apply_effects.h"
 #include "render/exposure.h"
-#include "render/replay.h"
+#include "render/trace_rows.h"
 #include "sim/error.h"
 
 #include <fmt/format.h>
@@ -27,10 +28,52 @@ double StageTimes::total() const {
   return sum;
 }
 
-Traced trace(const Scene& scene, StageTimes& times, const Progress& progress) {
+namespace {
+
+// Rows of direct light at pixel centres, with the black of the other projectors.
+ImageRows direct_view_rows(const Scene& scene, const Traced& traced, const View& view) {
+  const SurfaceMap& surface = traced.surfaces[view.camera];
+  std::vector<IdleLight> idle;
+  for (const IdleProjector& i : idle_projectors(scene, view.projector)) {
+    const auto same = [&](const View& v) { return v.camera == view.camera && v.projector == i.projector; };
+    idle.push_back({&std::find_if(traced.views.begin(), traced.views.end(), same)->light, i.share});
+  }
+  return {{surface.width, surface.height}, [&scene, &surface, &view, idle](LightRows& rows) {
+            direct_rows(surface, view.light, idle, scene.ambient_lx, rows);
+          }};
+}
+
+}  // namespace
+
+Rig make_rig(const Scene& scene, StageTimes& times) {
   if (scene.projectors.empty()) throw InputError("the scene has no [[projector]], expected at least one");
   if (scene.cameras.empty()) throw InputError("the scene has no [[camera]], expected at least one");
-  Traced traced{times.measure("build", [&] { return RayScene(scene); }), {}, {}, {}};
+  Rig rig{times.measure("build", [&] { return RayScene(scene); }), {}};
+  times.measure("surface", [&] {
+    for (const Camera& camera : scene.cameras) rig.directions.emplace_back(camera.device);
+  });
+  return rig;
+}
+
+ImageRows rig_rows(const Scene& scene, const Rig& rig, int camera, int projector,
+                   const PixelSamples& samples) {
+  const CameraRays& directions = rig.directions[camera];
+  return {{directions.width(), directions.height()},
+          trace_rows(rig.rays, scene, camera, directions, projector, samples)};
+}
+
+double saturation_cd_per_m2(const Scene& scene, const Rig& rig, int camera, int projector,
+                            StageTimes& times) {
+  const std::optional<double> fixed = fixed_saturation_cd_per_m2(scene.cameras[camera].sensor);
+  if (fixed) return *fixed;
+  const CameraRays& directions = rig.directions[camera];
+  const ImageRows direct{{directions.width(), directions.height()},
+                         trace_rows(rig.rays, scene, camera, directions, projector)};
+  return times.measure("exposure", [&] { return automatic_saturation_cd_per_m2({&direct, 1}); });
+}
+
+Traced trace(const Scene& scene, StageTimes& times, const Progress& progress) {
+  Traced traced{make_rig(scene, times), {}, {}, {}};
   const RayScene& rays = traced.rays;
   for (int c = 0; c < int(scene.cameras.size()); ++c) {
     const Camera& camera = scene.cameras[c];
@@ -39,7 +82,8 @@ Traced trace(const Scene& scene, StageTimes& times, const Progress& progress) {
                            camera.device.intrinsics.size.x, camera.device.intrinsics.size.y,
                            camera.device.name, scene.projectors.size()));
     }
-    traced.surfaces.push_back(times.measure("surface", [&] { return trace_surface(rays, scene, camera); }));
+    traced.surfaces.push_back(
+        times.measure("surface", [&] { return trace_surface(rays, scene, camera, traced.directions[c]); }));
     traced.points_world.push_back(
         times.measure("surface", [&] { return points_world(traced.surfaces[c], scene); }));
     std::vector<LightMap> lights;
@@ -48,34 +92,45 @@ Traced trace(const Scene& scene, StageTimes& times, const Progress& progress) {
           times.measure("light", [&] { return trace_light(rays, scene, traced.surfaces[c], projector); }));
     }
     times.measure("effects", [&] { apply_effects(traced.surfaces[c], lights, rays, scene, camera); });
-    for (int p = 0; p < int(lights.size()); ++p) {
-      const std::optional<double> fixed = fixed_saturation_cd_per_m2(camera.sensor);
-      const double saturation =
-          fixed ? *fixed
-                : automatic_saturation_cd_per_m2(traced.surfaces[c], {&lights[p], 1}, scene.ambient_lx);
-      traced.views.push_back({c, p, std::move(lights[p]), saturation});
-    }
+    for (int p = 0; p < int(lights.size()); ++p) traced.views.push_back({c, p, std::move(lights[p]), 0});
+  }
+  for (View& view : traced.views) {
+    const std::optional<double> fixed = fixed_saturation_cd_per_m2(scene.cameras[view.camera].sensor);
+    const ImageRows direct = direct_view_rows(scene, traced, view);
+    view.saturation_cd_per_m2 = fixed ? *fixed : times.measure("exposure", [&] {
+      return automatic_saturation_cd_per_m2({&direct, 1});
+    });
   }
   return traced;
 }
 
+ImageRows view_rows(const Scene& scene, const Traced& traced, const View& view, std::uint64_t seed) {
+  if (rows_are_direct(scene, view.camera)) return direct_view_rows(scene, traced, view);
+  return rig_rows(scene, traced, view.camera, view.projector, samples_of(scene, view.camera, seed));
+}
+
+CapturedStack capture_rows(const Scene& scene, int camera, int projector, const ImageRows& rows,
+                           double saturation_cd_per_m2, std::uint64_t seed, StageTimes& times) {
+  const Projector& source = scene.projectors[projector];
+  const Exposure exposure = make_exposure(scene.cameras[camera].sensor, saturation_cd_per_m2,
+                                          {seed, std::uint32_t(camera), std::uint32_t(projector)});
+  const auto play = [&](const Show& show) {
+    return times.measure("capture", [&] { return play_stack(rows, source.lookup, show, exposure); });
+  };
+  if (source.lookup == Lookup::nearest && !edits_patterns(scene.effects)) {
+    const GraySequence sequence{source.device.intrinsics.size};
+    const BinaryPatternStack bits =
+        times.measure("patterns", [&] { return make_binary_pattern_stack(sequence); });
+    return play(bits);
+  }
+  const PatternStack values = times.measure("patterns", [&] { return make_patterns(scene, source); });
+  return play(values);
+}
+
 CapturedStack capture_view(const Scene& scene, const Traced& traced, const View& view, std::uint64_t seed,
                            StageTimes& times) {
-  const Projector& projector = scene.projectors[view.projector];
-  const Exposure exposure = make_exposure(
-      scene.cameras[view.camera].sensor, view.saturation_cd_per_m2,
-      {seed, static_cast<std::uint32_t>(view.camera), static_cast<std::uint32_t>(view.projector)});
-  const auto play = [&](const AnyPatterns& patterns) {
-    return times.measure("capture", [&] {
-      return capture_stack(traced.surfaces[view.camera], view.light, projector, patterns, scene.ambient_lx,
-                           exposure);
-    });
-  };
-  if (projector.lookup == Lookup::nearest && !edits_patterns(scene.effects)) {
-    const GraySequence sequence{projector.device.intrinsics.size};
-    return play(times.measure("patterns", [&] { return make_binary_pattern_stack(sequence); }));
-  }
-  return play(times.measure("patterns", [&] { return make_patterns(scene, projector); }));
+  return capture_rows(scene, view.camera, view.projector, view_rows(scene, traced, view, seed),
+                      view.saturation_cd_per_m2, seed, times);
 }
 
 Overlap overlap(const Scene& scene, const Traced& traced, const View& view) {
