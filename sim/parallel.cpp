@@ -91,6 +91,7 @@ int thread_count() {
 }
 
 void parallel_for(std::size_t count, const std::function<void(std::size_t)>& body) {
+  if (count == 1) return body(0);  // no task: a waiting thread would take up others meanwhile
   tbb::parallel_for(std::size_t{0}, count, body);
 }
 
