@@ -66,11 +66,4 @@ void expose(const Exposure& exposure, std::uint32_t first_pixel, int pictures, c
 void expose(const Exposure& exposure, std::uint32_t first_pixel, int pictures, const float* levels,
             std::uint16_t* dn);
 
-/// The luminance that fills the scale so that the 99.9th percentile of the ideal white frame stands at 80 %
-/// of it. The percentile (nearest rank: the ⌈0.999·n⌉-th smallest) is over all pixels of the camera that see
-/// a lit surface, in the white frames of all `lights` together, ambient light included. Where no pixel is
-/// lit, over those that see a surface in ambient light; where that is black too, 1 cd/m².
-double automatic_saturation_cd_per_m2(const SurfaceMap& surface, std::span<const LightMap> lights,
-                                      double ambient_lx);
-
 }  // namespace laterna

@@ -6,49 +6,62 @@
 #include "render/pixel_array.h"
 
 #include <functional>
+#include <span>
+#include <vector>
 
 namespace laterna {
 
-/// Light that reaches a camera pixel from one place of the projector's picture.
+/// Light that reaches a camera pixel from one place of one source's picture.
 struct LightEntry {
-  double u_px, v_px;       ///< projector pixel
-  double weight;           ///< luminance at the camera pixel, in cd/m², where the picture is 1 at (u, v)
-  float footprint_px = 0;  ///< side of the square of the picture that it gathers from; 0: a point
+  double u_px, v_px;         ///< projector pixel
+  double weight;             ///< luminance at the camera pixel, in cd/m², where the picture is 1 at (u, v)
+  float footprint_px = 0;    ///< diameter of the disc of the picture that it gathers from; 0: a point
+  std::uint32_t source = 0;  ///< whose picture: index into Show::sources (one primary of one projector)
 };
 
 /// The rows of A for a region's pixels, row by row: those of pixel p are entries[begin[p]] to
-/// entries[begin[p + 1] - 1]. One projector is the source of them all.
+/// entries[begin[p + 1] - 1].
 struct LightRows {
   PixelRegion region;
   std::vector<std::uint32_t> begin;       ///< region.size() + 1
   std::vector<LightEntry> entries;        ///< none where the pixel is dark
-  std::vector<double> ambient_cd_per_m2;  ///< one per pixel
+  std::vector<double> ambient_cd_per_m2;  ///< one per pixel: what no picture changes
 };
 
 /// Fills `rows` for rows.region, which the caller sets; what `rows` held before is replaced. Called on
 /// several threads at once. Effects wrap one of these in another.
 using RowSource = std::function<void(LightRows& rows)>;
 
-/// Rows of direct light, one entry where lit, from maps that cover the region (the whole image's, say).
-void direct_rows(const SurfaceMap& surface, const LightMap& light, double ambient_lx, LightRows& rows);
+/// Gathers entries in any order of pixels; those of one pixel keep the order in which they came.
+class RowBuilder {
+ public:
+  explicit RowBuilder(std::size_t pixels) : count_(pixels, 0) {}
+  void add(std::size_t pixel, const LightEntry& entry) {
+    ++count_[pixel];
+    pixel_.push_back(std::uint32_t(pixel));
+    entries_.push_back(entry);
+  }
+  /// Writes rows.begin and rows.entries.
+  void finish(LightRows& rows) const;
 
-/// Antialiasing: each camera pixel is the mean of `count` rays.
-struct PixelSamples {
-  int count = 1;  ///< 1: the pixel's centre, exactly
-  std::uint64_t seed = 0;
+ private:
+  std::vector<std::uint32_t> count_, pixel_;
+  std::vector<LightEntry> entries_;
 };
 
-/// Where sample `sample` of a camera's pixel lies beside the pixel's centre, in [-0.5, 0.5)². The pixel is
-/// cut into columns × rows = count cells, as near to square as count's divisors allow, and each sample is
-/// uniform in a cell of its own: Philox4x32-10 with counter (x, y, sample/4, camera) under the key `seed`.
-/// (0, 0) where count is 1.
-glm::vec2 sample_offset_px(const PixelSamples& samples, std::uint32_t camera, const glm::ivec2& pixel,
-                           int sample);
+/// A projector that shows black while another one plays: its light is `share` of its white, and no picture
+/// changes it.
+struct IdleLight {
+  const LightMap* light;
+  double share;
+};
 
-/// Direct light traced on request, region by region: each of a pixel's samples is traced as if it were a
-/// pixel, its entry (where lit) weighs 1/count of what the pixel's would, and the ambient light is the mean.
-/// The arguments must outlive the result. Throws InputError where samples.count is outside 1..4096.
-RowSource trace_rows(const RayScene& rays, const Scene& scene, int camera, const CameraRays& directions,
-                     int projector, const PixelSamples& samples = {});
+/// Luminance of pixel p that no picture changes, in cd/m²: ambient light and that of idle projectors.
+double constant_luminance_cd_per_m2(const SurfaceMap& surface, std::span<const IdleLight> idle,
+                                    double ambient_lx, std::size_t p);
+
+/// Rows of direct light, one entry where lit, from maps that cover the region (the whole image's, say).
+void direct_rows(const SurfaceMap& surface, const LightMap& light, std::span<const IdleLight> idle,
+                 double ambient_lx, LightRows& rows);
 
 }  // namespace laterna

@@ -2,12 +2,12 @@
 
 #include "render/replay_kernels.h"
 #include "sim/error.h"
-#include "sim/parallel.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 
 namespace laterna {
 
@@ -17,16 +17,19 @@ constexpr int block = block_pixels;
 
 struct Play {
   Lookup lookup;
-  const AnyPatterns& patterns;
-  double scale;                    // levels for 1 cd/m²
-  std::vector<float> added_light;  // one per picture, for a stack that is not linear; else empty
+  const Show& show;
+  double scale;                                 // levels for 1 cd/m²
+  std::vector<std::vector<float>> added_light;  // by source, one per frame, where any stack is not linear
 };
 
-Play make_play(Lookup lookup, const AnyPatterns& patterns, double scale) {
-  Play play{lookup, patterns, scale, {}};
-  if (!patterns.values || patterns.values->is_linear()) return play;
-  play.added_light = patterns.values->added_light;
-  play.added_light.resize(patterns.count, 0.0f);
+Play make_play(Lookup lookup, const Show& show, double scale) {
+  Play play{lookup, show, scale, {}};
+  const auto needs_table = [](const AnyPatterns& p) { return p.values && !p.values->is_linear(); };
+  if (std::none_of(show.sources.begin(), show.sources.end(), needs_table)) return play;
+  for (const AnyPatterns& source : show.sources) {
+    play.added_light.push_back(source.values->added_light);
+    play.added_light.back().resize(show.frames(), 0.0f);
+  }
   return play;
 }
 
@@ -45,7 +48,7 @@ struct Block {
   std::vector<NearestTap> nearest;
   std::vector<TableTap> table;
   std::vector<BitTap> bits;
-  std::vector<float> scratch, levels;  // levels[k·64 + i]
+  std::vector<float> scratch, levels, mixed;  // levels[k·64 + i]: frames; mixed alike: pictures of a timeline
 };
 
 inline float gain_of(const LightEntry& entry, const Play& play) {
@@ -56,8 +59,13 @@ struct Corners {
   LinearTaps x, y;
 };
 
-Corners corners_of(const LightEntry& entry, const AnyPatterns& patterns) {
+template <class Stack>
+Corners corners_of(const LightEntry& entry, const Stack& patterns) {
   return {linear_taps(entry.u_px, patterns.width), linear_taps(entry.v_px, patterns.height)};
+}
+
+inline const PatternStack& values_of(const LightEntry& entry, const Play& play) {
+  return *play.show.sources[entry.source].values;
 }
 
 inline std::uint64_t nearest_code(const LightEntry& entry, const BinaryPatternStack& patterns) {
@@ -70,15 +78,15 @@ inline void fetch_ahead(const std::uint8_t* texel, int count) {
 }
 
 void add_tap(const LightEntry& entry, const Play& play, std::vector<NearestTap>& taps) {
-  const PatternStack& p = *play.patterns.values;
+  const PatternStack& p = values_of(entry, play);
   taps.push_back({p.texel(nearest_texel(entry.u_px, p.width), nearest_texel(entry.v_px, p.height)),
                   gain_of(entry, play)});
   fetch_ahead(taps.back().texel, p.count);
 }
 
 void add_tap(const LightEntry& entry, const Play& play, std::vector<BilinearTap>& taps) {
-  const PatternStack& p = *play.patterns.values;
-  const auto [x, y] = corners_of(entry, play.patterns);
+  const PatternStack& p = values_of(entry, play);
+  const auto [x, y] = corners_of(entry, p);
   taps.push_back({p.texel(x.first, y.first), p.texel(x.second, y.first), p.texel(x.first, y.second),
                   p.texel(x.second, y.second), float(x.share), float(y.share), gain_of(entry, play)});
   fetch_ahead(taps.back().a, p.count);
@@ -86,16 +94,17 @@ void add_tap(const LightEntry& entry, const Play& play, std::vector<BilinearTap>
 }
 
 void add_tap(const LightEntry& entry, const Play& play, std::vector<TableTap>& taps) {
-  const PatternStack& p = *play.patterns.values;
+  const PatternStack& p = values_of(entry, play);
   const auto gain = static_cast<float>(play.scale * entry.weight);
   const auto add = [&](int x, int y, float share) {
-    taps.push_back({p.texel(x, y), p.light_of_value.data(), play.added_light.data(), gain * share});
+    taps.push_back(
+        {p.texel(x, y), p.light_of_value.data(), play.added_light[entry.source].data(), gain * share});
   };
   if (play.lookup == Lookup::nearest) {
     add(nearest_texel(entry.u_px, p.width), nearest_texel(entry.v_px, p.height), 1);
     return;
   }
-  const auto [x, y] = corners_of(entry, play.patterns);
+  const auto [x, y] = corners_of(entry, p);
   const auto right = static_cast<float>(x.share), below = static_cast<float>(y.share);
   add(x.first, y.first, (1 - right) * (1 - below));
   add(x.second, y.first, right * (1 - below));
@@ -104,13 +113,13 @@ void add_tap(const LightEntry& entry, const Play& play, std::vector<TableTap>& t
 }
 
 void add_tap(const LightEntry& entry, const Play& play, std::vector<BitTap>& taps) {
-  const BinaryPatternStack& p = *play.patterns.bits;
+  const BinaryPatternStack& p = *play.show.sources[entry.source].bits;
   const float gain = gain_of(entry, play) * 255.0f;
   if (play.lookup == Lookup::nearest) {
     taps.push_back({nearest_code(entry, p), gain});
     return;
   }
-  const auto [x, y] = corners_of(entry, play.patterns);
+  const auto [x, y] = corners_of(entry, p);
   const auto right = static_cast<float>(x.share), below = static_cast<float>(y.share);
   taps.push_back({p.code(x.first, y.first), gain * (1 - right) * (1 - below)});
   taps.push_back({p.code(x.second, y.first), gain * right * (1 - below)});
@@ -120,7 +129,7 @@ void add_tap(const LightEntry& entry, const Play& play, std::vector<BitTap>& tap
 
 template <class Tap>
 void sum_entries(Block& b, const Play& play, std::vector<Tap>& taps) {
-  const int count = play.patterns.count;
+  const int count = play.show.frames();
   taps.clear();
   for (int i = 0; i < b.pixels; ++i) {
     b.base[i] = static_cast<float>(play.scale * b.ambient[i]);
@@ -135,18 +144,42 @@ void sum_entries(Block& b, const Play& play, std::vector<Tap>& taps) {
 
 // Fills b.levels.
 void sum_block(Block& b, const Play& play) {
-  if (play.patterns.bits) return sum_entries(b, play, b.bits);
+  if (play.show.binary()) return sum_entries(b, play, b.bits);
   if (!play.added_light.empty()) return sum_entries(b, play, b.table);
   if (play.lookup == Lookup::nearest) return sum_entries(b, play, b.nearest);
   return sum_entries(b, play, b.bilinear);
 }
 
+// Pictures from frames: what each of them integrates.
+void mix_frames(Block& b, const std::vector<PictureFrames>& pictures) {
+  b.mixed.assign(pictures.size() * block, 0);
+  for (std::size_t k = 0; k < pictures.size(); ++k) {
+    float* to = b.mixed.data() + k * block;
+    for (const FrameShare& f : pictures[k]) {
+      const float* from = b.levels.data() + std::size_t(f.frame) * block;
+      for (int i = 0; i < block; ++i) to[i] += f.share * from[i];
+    }
+  }
+}
+
+// The levels of every picture of a block on image row y.
+const float* picture_levels(Block& b, const Play& play, const std::vector<PictureFrames>& timeline) {
+  sum_block(b, play);
+  if (timeline.empty()) return b.levels.data();
+  mix_frames(b, timeline);
+  return b.mixed.data();
+}
+
+std::vector<PictureFrames> frames_of_row(const Show& show, int image_row) {
+  return show.timeline.frames_of_row ? show.timeline.frames_of_row(image_row) : std::vector<PictureFrames>();
+}
+
 // One sensor reading of a block in every picture, row by row to the planes.
 template <class Number>
-void expose_block(const Block& b, const Exposure& exposure, int count, std::vector<Number>& dn,
-                  Planes<Number> out) {
+void expose_block(const Block& b, const float* levels, const Exposure& exposure, int count,
+                  std::vector<Number>& dn, Planes<Number> out) {
   dn.resize(std::size_t(count) * block);
-  expose(exposure, std::uint32_t(b.first), count, b.levels.data(), dn.data());
+  expose(exposure, std::uint32_t(b.first), count, levels, dn.data());
   for (int k = 0; k < count; ++k)
     std::copy_n(dn.data() + std::size_t(k) * block, b.pixels, out.first + k * out.stride);
 }
@@ -154,7 +187,7 @@ void expose_block(const Block& b, const Exposure& exposure, int count, std::vect
 // Black and white through at most one entry a pixel: two levels, no sums.
 template <class Number>
 void expand_block(const Block& b, const Play& play, const Exposure& exposure, Planes<Number> out) {
-  const BinaryPatternStack& patterns = *play.patterns.bits;
+  const BinaryPatternStack& patterns = *play.show.sources[0].bits;
   alignas(64) std::uint64_t codes[block] = {};
   alignas(64) float levels[2 * block] = {};
   alignas(64) Number dn[2 * block];
@@ -170,43 +203,12 @@ void expand_block(const Block& b, const Play& play, const Exposure& exposure, Pl
 }
 
 bool has_two_levels(const Block& b, const Play& play, const Exposure& exposure) {
-  if (!play.patterns.bits || play.lookup != Lookup::nearest || exposure.noise_sigma_dn > 0 ||
-      exposure.electrons)
+  if (!play.show.binary() || play.show.sources.size() > 1 || play.show.timeline.frames_of_row ||
+      play.lookup != Lookup::nearest || exposure.noise_sigma_dn > 0 || exposure.electrons)
     return false;
   for (int i = 0; i < b.pixels; ++i)
     if (b.begin[i + 1] - b.begin[i] > 1) return false;
   return true;
-}
-
-void check(const ImageRows& image) {
-  const glm::ivec2 r = image.region_px;
-  if (r.x < tile_edge || r.y < tile_edge || r.x % tile_edge != 0 || r.y % tile_edge != 0)
-    throw InputError(
-        fmt::format("replay: regions of {}x{} pixels, expected multiples of {}", r.x, r.y, tile_edge));
-}
-
-glm::ivec2 region_count(const ImageRows& image) {
-  return (image.size + image.region_px - 1) / image.region_px;
-}
-
-PixelRegion region_of(const ImageRows& image, int index) {
-  const int columns = region_count(image).x;
-  const glm::ivec2 first = glm::ivec2(index % columns, index / columns) * image.region_px;
-  const glm::ivec2 size = glm::min(image.region_px, image.size - first);
-  return {first.x, first.y, size.x, size.y};
-}
-
-// Calls work(rows) for each region of the image.
-template <class Work>
-void for_each_region(const ImageRows& image, const Work& work) {
-  check(image);
-  const glm::ivec2 regions = region_count(image);
-  parallel_for(std::size_t(regions.x) * regions.y, [&](std::size_t index) {
-    LightRows rows;
-    rows.region = region_of(image, int(index));
-    image.rows(rows);
-    work(rows);
-  });
 }
 
 // Calls play_block(b, x) for the blocks of row y of a region; x is the first pixel's place in the row.
@@ -228,20 +230,20 @@ void for_each_block(Block& b, const LightRows& rows, int y, int image_width, con
 template <class Number>
 void play_region(const LightRows& rows, const Play& play, const Exposure& exposure, ImageStack<Number>& out) {
   const std::size_t width = rows.region.width, plane = out.picture_size();
-  PixelArray<Number> stage(rows.region.width, play.patterns.count);
+  const int pictures = play.show.pictures();
+  PixelArray<Number> stage(rows.region.width, pictures);
   std::vector<Number> dn;
   Block b;
   for (int y = 0; y < rows.region.height; ++y) {
+    const std::vector<PictureFrames> timeline = frames_of_row(play.show, rows.region.y + y);
     for_each_block(b, rows, y, out.width, [&](Block&, int x) {
       const Planes<Number> planes{stage.values.data() + x, width};
       if (has_two_levels(b, play, exposure)) return expand_block(b, play, exposure, planes);
-      sum_block(b, play);
-      expose_block(b, exposure, play.patterns.count, dn, planes);
+      expose_block(b, picture_levels(b, play, timeline), exposure, pictures, dn, planes);
     });
     Number* to = out.values.data() + std::size_t(rows.region.y + y) * out.width + rows.region.x;
     stream_rows(reinterpret_cast<const std::byte*>(stage.values.data()), width * sizeof(Number),
-                width * sizeof(Number), play.patterns.count, reinterpret_cast<std::byte*>(to),
-                plane * sizeof(Number));
+                width * sizeof(Number), pictures, reinterpret_cast<std::byte*>(to), plane * sizeof(Number));
   }
 }
 
@@ -250,11 +252,13 @@ CapturedStack make_stack(const glm::ivec2& size, int count, const Exposure& expo
   return ImageStack<std::uint16_t>(size.x, size.y, count);
 }
 
-void scatter(const LightRows& rows, Lookup lookup, const Image<float>& camera_image, Image<double>& sum) {
+void scatter(const LightRows& rows, Lookup lookup, const Image<float>& camera_image, std::uint32_t source,
+             Image<double>& sum) {
   for (std::size_t p = 0; p < rows.region.size(); ++p) {
     const int x = rows.region.x + int(p) % rows.region.width, y = rows.region.y + int(p) / rows.region.width;
     for (std::uint32_t e = rows.begin[p]; e < rows.begin[p + 1]; ++e) {
       const LightEntry& entry = rows.entries[e];
+      if (entry.source != source) continue;
       const double value = entry.weight * camera_image(x, y);
       if (lookup == Lookup::nearest) {
         sum(nearest_texel(entry.u_px, sum.width), nearest_texel(entry.v_px, sum.height)) += value;
@@ -271,53 +275,51 @@ void scatter(const LightRows& rows, Lookup lookup, const Image<float>& camera_im
 
 }  // namespace
 
-ImageStack<float> play_luminance(const ImageRows& image, Lookup lookup, const AnyPatterns& patterns) {
-  const Play play = make_play(lookup, patterns, 1);
-  ImageStack<float> out(image.size.x, image.size.y, patterns.count);
-  for_each_region(image, [&](const LightRows& rows) {
+ImageStack<float> play_luminance(const ImageRows& image, Lookup lookup, const Show& show) {
+  const Play play = make_play(lookup, show, 1);
+  ImageStack<float> out(image.size.x, image.size.y, show.pictures());
+  for_each_region(image, [&](const LightRows& rows, std::size_t) {
     Block b;
     for (int y = 0; y < rows.region.height; ++y) {
+      const std::vector<PictureFrames> timeline = frames_of_row(show, rows.region.y + y);
       for_each_block(b, rows, y, image.size.x, [&](Block&, int) {
-        sum_block(b, play);
-        for (int k = 0; k < patterns.count; ++k)
-          std::copy_n(b.levels.data() + std::size_t(k) * block, b.pixels, out.picture(k).data() + b.first);
+        const float* levels = picture_levels(b, play, timeline);
+        for (int k = 0; k < out.count; ++k)
+          std::copy_n(levels + std::size_t(k) * block, b.pixels, out.picture(k).data() + b.first);
       });
     }
   });
   return out;
 }
 
-void play_rows(const LightRows& rows, Lookup lookup, const AnyPatterns& patterns, const Exposure& exposure,
+void play_rows(const LightRows& rows, Lookup lookup, const Show& show, const Exposure& exposure,
                CapturedStack& out) {
-  const Play play = make_play(lookup, patterns, exposure.level_per_cd_per_m2());
+  const Play play = make_play(lookup, show, exposure.level_per_cd_per_m2());
   std::visit([&](auto& stack) { play_region(rows, play, exposure, stack); }, out);
 }
 
-void play_stack(const ImageRows& image, Lookup lookup, const AnyPatterns& patterns, const Exposure& exposure,
+void play_stack(const ImageRows& image, Lookup lookup, const Show& show, const Exposure& exposure,
                 CapturedStack& out) {
-  for_each_region(image, [&](const LightRows& rows) { play_rows(rows, lookup, patterns, exposure, out); });
+  for_each_region(image,
+                  [&](const LightRows& rows, std::size_t) { play_rows(rows, lookup, show, exposure, out); });
 }
 
-CapturedStack play_stack(const ImageRows& image, Lookup lookup, const AnyPatterns& patterns,
-                         const Exposure& exposure) {
-  CapturedStack out = make_stack(image.size, patterns.count, exposure);
-  play_stack(image, lookup, patterns, exposure, out);
+CapturedStack play_stack(const ImageRows& image, Lookup lookup, const Show& show, const Exposure& exposure) {
+  CapturedStack out = make_stack(image.size, show.pictures(), exposure);
+  play_stack(image, lookup, show, exposure, out);
   return out;
 }
 
 Image<double> apply_transpose(const ImageRows& image, Lookup lookup, const Image<float>& camera_image,
-                              glm::ivec2 projector_size) {
-  constexpr int batch = 64;  // regions traced at once; added one after the other, for the same bits
-  check(image);
+                              glm::ivec2 projector_size, std::uint32_t source) {
+  constexpr std::size_t batch = 64;  // regions traced at once; added one after the other, for the same bits
   Image<double> sum(projector_size.x, projector_size.y);
-  const int count = region_count(image).x * region_count(image).y;
-  for (int first = 0; first < count; first += batch) {
-    std::vector<LightRows> rows(std::min(batch, count - first));
-    parallel_for(rows.size(), [&](std::size_t i) {
-      rows[i].region = region_of(image, first + int(i));
-      image.rows(rows[i]);
-    });
-    for (const LightRows& r : rows) scatter(r, lookup, camera_image, sum);
+  const std::size_t count = region_count(image);
+  for (std::size_t first = 0; first < count; first += batch) {
+    std::vector<LightRows> parts(std::min(batch, count - first));
+    for_each_region(image, first, parts.size(),
+                    [&](LightRows& rows, std::size_t index) { parts[index - first] = std::move(rows); });
+    for (const LightRows& part : parts) scatter(part, lookup, camera_image, source, sum);
   }
   return sum;
 }
@@ -335,7 +337,7 @@ CapturedStack capture_stack(const SurfaceMap& surface, const LightMap& light, co
                                  surface.height));
   }
   const ImageRows image{{surface.width, surface.height},
-                        [&](LightRows& rows) { direct_rows(surface, light, ambient_lx, rows); }};
+                        [&](LightRows& rows) { direct_rows(surface, light, {}, ambient_lx, rows); }};
   return play_stack(image, projector.lookup, patterns, exposure);
 }
 

@@ -2,53 +2,36 @@
 #pragma once
 
 #include "render/exposure.h"
-#include "render/light_rows.h"
+#include "render/image_rows.h"
+#include "render/show.h"
 #include "sim/image.h"
-#include "sim/pattern.h"
 #include "sim/scene.h"
 
 namespace laterna {
 
-/// Patterns of either kind; what it points to must outlive it.
-struct AnyPatterns {
-  const PatternStack* values = nullptr;
-  const BinaryPatternStack* bits = nullptr;
-  int width, height, count;
-
-  AnyPatterns(const PatternStack& p) : values(&p), width(p.width), height(p.height), count(p.count) {}
-  AnyPatterns(const BinaryPatternStack& p) : bits(&p), width(p.width), height(p.height), count(p.count) {}
-};
-
-/// A picture's rows, in any number of regions.
-struct ImageRows {
-  glm::ivec2 size{0, 0};  ///< of the camera's image
-  RowSource rows;
-  glm::ivec2 region_px{256, 4};  ///< what is asked for at a time; multiples of 4; no bits depend on it
-};
-
-/// Picture k at each camera pixel before exposure, in cd/m²: Σ weight·p_k(u, v) over the pixel's entries,
-/// plus its ambient light, where p_k in [0, 1] is value/255 of what `lookup` finds at (u, v). In single
-/// precision.
-ImageStack<float> play_luminance(const ImageRows& image, Lookup lookup, const AnyPatterns& patterns);
+/// Frame k at each camera pixel before exposure, in cd/m²: Σ weight·p_k(u, v) over the pixel's entries, plus
+/// its constant light, where p_k in [0, 1] is value/255 of what `lookup` finds at (u, v) of the entry's
+/// source. Picture k is what the show's timeline makes of the frames. In single precision. An entry whose
+/// source the show does not have is an error of the caller's.
+ImageStack<float> play_luminance(const ImageRows& image, Lookup lookup, const Show& show);
 
 /// The same, exposed: 8-bit pictures for a bit depth of 8, else 16-bit. Arithmetic is in single precision: up
 /// to 2⁻⁸ DN of 16 bits.
-CapturedStack play_stack(const ImageRows& image, Lookup lookup, const AnyPatterns& patterns,
-                         const Exposure& exposure);
+CapturedStack play_stack(const ImageRows& image, Lookup lookup, const Show& show, const Exposure& exposure);
 
 /// The same into a stack of the right size and type, whose memory is used again.
-void play_stack(const ImageRows& image, Lookup lookup, const AnyPatterns& patterns, const Exposure& exposure,
+void play_stack(const ImageRows& image, Lookup lookup, const Show& show, const Exposure& exposure,
                 CapturedStack& out);
 
 /// One region's part of that. `out` is of the whole image.
-void play_rows(const LightRows& rows, Lookup lookup, const AnyPatterns& patterns, const Exposure& exposure,
+void play_rows(const LightRows& rows, Lookup lookup, const Show& show, const Exposure& exposure,
                CapturedStack& out);
 
-/// Aᵀ·y: at each projector pixel, the sum over camera pixels and entries of weight·share·y, where share is
-/// what `lookup` takes of the texel for the entry. So y·(A·p) = p·(Aᵀ·y) for any picture p in [0, 1].
-/// `camera_image` has the camera's size.
+/// Aᵀ·y: at each pixel of one source, the sum over camera pixels and its entries of weight·share·y, where
+/// share is what `lookup` takes of the texel for the entry. So y·(A·p) = p·(Aᵀ·y) for any picture p in [0,
+/// 1]. `camera_image` has the camera's size.
 Image<double> apply_transpose(const ImageRows& image, Lookup lookup, const Image<float>& camera_image,
-                              glm::ivec2 projector_size);
+                              glm::ivec2 projector_size, std::uint32_t source = 0);
 
 /// Direct light from maps of the whole image, played and exposed. Pixels without the projector's light get
 /// the ambient light; those that see nothing, or a back side, are black (but for noise). Throws InputError

@@ -44,6 +44,47 @@ void check_projector_effects(const SceneSpec& scene) {
   expect(on.black_level, "black_level", "black_level", [](const P& p) { return p.black_level.has_value(); });
 }
 
+bool focuses(const Optics& optics) { return optics.aperture_m && optics.focus_m; }
+
+void check_camera_samples(const SceneSpec& scene) {
+  const Effects& on = scene.effects;
+  for (const CameraSpec& camera : scene.cameras) {
+    const Optics& optics = camera.optics;
+    const bool spreads = (on.camera_defocus && focuses(optics)) || (on.diffraction && optics.aperture_m);
+    if (spreads && camera.samples_per_pixel < 2)
+      throw InputError(fmt::format(
+          "[effects]: {} is on, but samples_per_pixel of a [[camera]] is 1, expected more: its rays are "
+          "spread over the aperture",
+          on.camera_defocus ? "camera_defocus" : "diffraction"));
+    if (on.fill_factor && optics.fill_factor < 1 && !on.antialiasing)
+      throw InputError(
+          "[effects]: fill_factor is on and a [[camera]] has it, but antialiasing is off, expected on: it "
+          "is the antialiasing's rays that leave a pixel's rim out");
+  }
+}
+
+template <class Given>
+bool any_optics(const SceneSpec& scene, const Given& given) {
+  return std::any_of(scene.cameras.begin(), scene.cameras.end(),
+                     [&](const CameraSpec& c) { return given(c.optics); }) ||
+         std::any_of(scene.projectors.begin(), scene.projectors.end(),
+                     [&](const ProjectorSpec& p) { return given(p.effects.optics); });
+}
+
+void check_optics(const SceneSpec& scene) {
+  const Effects& on = scene.effects;
+  expect_given(on.camera_defocus, "camera_defocus", "camera", "aperture_m (with focus_m)", scene.cameras,
+               [](const CameraSpec& c) { return focuses(c.optics); });
+  expect_given(on.projector_defocus, "projector_defocus", "projector", "aperture_m (with focus_m)",
+               scene.projectors, [](const ProjectorSpec& p) { return focuses(p.effects.optics); });
+  if (on.diffraction && !any_optics(scene, [](const Optics& o) { return o.aperture_m.has_value(); }))
+    throw InputError(
+        "[effects]: diffraction is on, but no device has the key aperture_m, expected at least one");
+  if (on.fill_factor && !any_optics(scene, [](const Optics& o) { return o.fill_factor < 1; }))
+    throw InputError("[effects]: fill_factor is on, but no device has one below 1, expected at least one");
+  check_camera_samples(scene);
+}
+
 void check_slide(const SceneSpec& scene) {
   const PatternKind kind = scene.patterns.parameters.kind;
   const bool is_slide = kind == PatternKind::slide, is_list = kind == PatternKind::pictures;
@@ -58,6 +99,26 @@ void check_slide(const SceneSpec& scene) {
   if (is_list == scene.patterns.files.empty())
     throw InputError(is_list ? "[patterns]: kind is \"pictures\", but files is empty, expected pictures"
                              : "[patterns]: files is given, but kind is not \"pictures\"");
+}
+
+void check_inter_reflection(const SceneSpec& scene) {
+  if (!scene.effects.inter_reflection) return;
+  const auto [bounces, paths] = scene.inter_reflection;
+  if (bounces < 1)
+    throw InputError(
+        "[effects]: inter_reflection is on, but [inter_reflection] has no bounces, expected at least 1");
+  const Effects& on = scene.effects;
+  const bool spread = on.antialiasing || on.camera_defocus || on.diffraction;
+  for (const CameraSpec& camera : scene.cameras) {
+    const long samples = spread ? camera.samples_per_pixel : 1;
+    const long entries = samples * bounces * paths;
+    if (entries > most_entries_per_pixel) {
+      throw InputError(
+          fmt::format("[inter_reflection]: {} samples per pixel × {} paths × {} bounces = {}, expected at "
+                      "most {}",
+                      samples, paths, bounces, entries, most_entries_per_pixel));
+    }
+  }
 }
 
 }  // namespace
@@ -112,14 +173,29 @@ void check(const Gloss& gloss, double albedo) {
   }
 }
 
+void check(const MeshEffects& effects, double albedo) {
+  check(effects.gloss, albedo);
+  if (!effects.displacement_map.empty() && effects.displacement == 0)
+    throw InputError(
+        "displacement_map is given, but displacement is missing or 0, expected how far white moves");
+  if (effects.displacement_map.empty() && effects.displacement != 0)
+    throw InputError("displacement is given, but displacement_map is missing, expected a picture file");
+}
+
 void check_effects(const SceneSpec& scene) {
   check_projector_effects(scene);
   check_slide(scene);
+  check_inter_reflection(scene);
+  check_optics(scene);
   const Effects& on = scene.effects;
   expect_given(on.camera_vignetting, "camera_vignetting", "camera", "vignetting", scene.cameras,
                [](const CameraSpec& c) { return c.vignetting.model != VignettingModel::none; });
+  expect_given(on.antialiasing, "antialiasing", "camera", "samples_per_pixel above 1", scene.cameras,
+               [](const CameraSpec& c) { return c.samples_per_pixel > 1; });
   expect_given(on.gloss, "gloss", "mesh", "gloss", scene.meshes,
                [](const MeshSpec& m) { return m.effects.gloss.model != GlossModel::none; });
+  expect_given(on.displacement, "displacement", "mesh", "displacement_map", scene.meshes,
+               [](const MeshSpec& m) { return !m.effects.displacement_map.empty(); });
   expect_given(on.normal_map, "normal_map", "mesh", "normal_map", scene.meshes,
                [](const MeshSpec& m) { return !m.effects.normal_map.empty(); });
   expect_given(on.solid_albedo, "solid_albedo", "mesh", "solid", scene.meshes,

@@ -12,18 +12,22 @@ struct Effects {
   bool scaler = false, spotlight = false, attenuation = false, slide = false;
   bool gloss = false, normal_map = false, solid_albedo = false;
   bool response = false, black_level = false;
+  bool projector_lens = true, camera_lens = true;
+  bool antialiasing = false, camera_defocus = false, projector_defocus = false;
+  bool diffraction = false, fill_factor = false;
+  bool inter_reflection = false, displacement = false;
   bool operator==(const Effects&) const = default;
 };
 
 /// One switch. The description of [effects], its checks and the report of costs go through all_effects.
 struct EffectSwitch {
   const char* name;      ///< its key
-  const char* stage;     ///< rays, surface, rows, weight, pattern, replay or exposure
+  const char* stage;     ///< warp, rays, surface, rows, weight, pattern, replay or exposure
   const char* sentence;  ///< what it does, for the docs
   bool Effects::*on;
 };
 
-inline constexpr std::array<EffectSwitch, 17> all_effects{{
+inline constexpr auto all_effects = std::to_array<EffectSwitch>({
     {"shadow", "rows", "What stands between a point and the projector takes its light.", &Effects::shadow},
     {"back_face", "rows",
      "A surface is lit and seen on its front only. Off: both sides, whichever of them each device is on.",
@@ -47,11 +51,29 @@ inline constexpr std::array<EffectSwitch, 17> all_effects{{
     {"slide", "pattern", "Needs `kind = \"slide\"` and `file` of [patterns].", &Effects::slide},
     {"gloss", "weight", "Needs `gloss` of a [[mesh]].", &Effects::gloss},
     {"normal_map", "weight", "Needs `normal_map` of a [[mesh]].", &Effects::normal_map},
+    {"displacement", "surface", "Needs `displacement_map` of a [[mesh]].", &Effects::displacement},
     {"solid_albedo", "surface", "Needs `solid` of a [[mesh]].", &Effects::solid_albedo},
     {"response", "pattern", "Needs `response_exponent` or `response_table` of a [[projector]].",
      &Effects::response},
     {"black_level", "pattern", "Needs `black_level` of a [[projector]].", &Effects::black_level},
-}};
+    {"projector_lens", "warp", "`lens` of [[projector]]. Off: a pinhole.", &Effects::projector_lens},
+    {"camera_lens", "warp", "`lens` of [[camera]]. Off: a pinhole.", &Effects::camera_lens},
+    {"antialiasing", "rays", "Needs `samples_per_pixel` above 1 of a [[camera]].", &Effects::antialiasing},
+    {"camera_defocus", "rays",
+     "Needs `aperture_m` and `focus_m` of a [[camera]], and `samples_per_pixel` above 1.",
+     &Effects::camera_defocus},
+    {"projector_defocus", "rows", "Needs `aperture_m` and `focus_m` of a [[projector]].",
+     &Effects::projector_defocus},
+    {"diffraction", "rows",
+     "Needs `aperture_m` of a [[projector]], or of a [[camera]] with `samples_per_pixel` above 1.",
+     &Effects::diffraction},
+    {"fill_factor", "rows",
+     "Needs `fill_factor` below 1 of a [[projector]], or, with `antialiasing`, of a [[camera]].",
+     &Effects::fill_factor},
+    {"inter_reflection", "rows",
+     "Surfaces light each other, diffusely. Needs `bounces` above 0 of [inter_reflection].",
+     &Effects::inter_reflection},
+});
 
 /// Whether the panel shows anything but the pattern sequence as it stands.
 inline bool edits_patterns(const Effects& e) {

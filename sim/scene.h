@@ -34,6 +34,8 @@ struct Object {
   std::uint64_t seed = 1;  ///< draws the solid noise
   /// Tangent-space normals, each channel 0 to 1: n = 2·rgb - 1. Empty where effects.normal_map is.
   std::shared_ptr<const Image<glm::vec3>> normal_map{};
+  /// Heights, linear, 0 to 1. Empty where effects.displacement_map is.
+  std::shared_ptr<const Image<float>> displacement_map{};
 };
 
 /// A projector: a device that emits.
@@ -53,6 +55,8 @@ struct Camera {
   Sensor sensor;
   Vignetting vignetting{};
   std::shared_ptr<const Image<float>> vignetting_map{};  ///< empty where `vignetting` has none
+  int samples_per_pixel = 1;  ///< rays, with antialiasing, camera_defocus or diffraction
+  Optics optics{};
 };
 
 /// A picture of the user's that a projector shows.
@@ -69,6 +73,7 @@ struct Scene {
   double ambient_lx = 0;  ///< uniform illuminance on every surface, from everywhere
   PatternParameters patterns{};
   Effects effects{};
+  InterReflection inter_reflection{};
   std::shared_ptr<const Slide> slide{};  ///< where effects.slide is on
   /// Where patterns.kind is pictures, in their order; of one size and one kind of values.
   std::shared_ptr<const std::vector<Slide>> pictures{};

@@ -139,6 +139,15 @@ void add_normal_map(Object& object, const std::filesystem::path& folder) {
   object.normal_map = read_normal_map(folder / object.effects.normal_map);
 }
 
+void add_displacement_map(Object& object, const std::filesystem::path& folder) {
+  const std::string& file = object.effects.displacement_map;
+  if (file.empty()) return;
+  if (object.mesh.texture_coordinates.empty())
+    throw InputError("displacement_map is given, but the mesh has no texture coordinates");
+  object.displacement_map =
+      std::make_shared<const Image<float>>(read_fractions(folder / file, Encoding::linear));
+}
+
 Object build_object(const MeshSpec& spec, const std::filesystem::path& folder, Maps& maps) {
   Object object{.name = spec.name,
                 .mesh = {},
@@ -147,7 +156,8 @@ Object build_object(const MeshSpec& spec, const std::filesystem::path& folder, M
                 .albedo_map = {},
                 .effects = spec.effects,
                 .seed = spec.seed,
-                .normal_map = {}};
+                .normal_map = {},
+                .displacement_map = {}};
   if (spec.file.empty()) {
     object.mesh = make_shape({spec.shape, spec.shape_size, spec.detail, spec.seed});
   } else {
@@ -156,6 +166,7 @@ Object build_object(const MeshSpec& spec, const std::filesystem::path& folder, M
   validate(object.mesh, spec.file.empty() ? spec.shape : spec.file);
   expect_near(object.mesh, object.world_from_object);
   add_normal_map(object, folder);
+  add_displacement_map(object, folder);
   if (spec.albedo_map.empty()) return object;
   if (object.mesh.texture_coordinates.empty())
     throw InputError("albedo_map is given, but the mesh has no texture coordinates");
@@ -174,6 +185,13 @@ void name_devices(std::vector<Spec>& devices, const char* kind) {
     std::string& name = devices[i].device.name;
     if (name.empty()) name = devices.size() == 1 ? kind : fmt::format("{}{}", kind, i + 1);
   }
+}
+
+void switch_off_lenses(Scene& scene) {
+  if (!scene.effects.projector_lens)
+    for (Projector& projector : scene.projectors) projector.device.lens = {};
+  if (!scene.effects.camera_lens)
+    for (Camera& camera : scene.cameras) camera.device.lens = {};
 }
 
 std::string mesh_name(const MeshSpec& mesh) {
@@ -207,7 +225,7 @@ void check(const MeshSpec& mesh) {
                                          : "file and shape are both given, expected one of the two");
     }
     world_from_file(mesh);
-    check(mesh.effects.gloss, mesh.albedo);
+    check(mesh.effects, mesh.albedo);
   });
 }
 
@@ -253,6 +271,7 @@ Scene build_scene(const SceneSpec& spec, const std::filesystem::path& folder) {
               .ambient_lx = spec.ambient_lx,
               .patterns = spec.patterns.parameters,
               .effects = spec.effects,
+              .inter_reflection = spec.inter_reflection,
               .slide = {},
               .pictures = {}};
   const SceneSpec named = with_names(spec);
@@ -272,8 +291,10 @@ Scene build_scene(const SceneSpec& spec, const std::filesystem::path& folder) {
     const std::string what = heading("camera", c.device.name);
     check(c);
     scene.cameras.push_back({device_of(c.device, folder, what), c.sensor, c.vignetting,
-                             about(what, [&] { return vignetting_map(c.vignetting, folder); })});
+                             about(what, [&] { return vignetting_map(c.vignetting, folder); }),
+                             c.samples_per_pixel, c.optics});
   }
+  switch_off_lenses(scene);
   if (spec.effects.slide)
     scene.slide = std::make_shared<const Slide>(read_slide(spec.patterns, folder / spec.patterns.file));
   if (spec.patterns.parameters.kind == PatternKind::pictures)

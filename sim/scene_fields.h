@@ -108,6 +108,37 @@ void describe(Visitor& visit, Scaler& scaler) {
 }
 
 template <class Visitor>
+void describe(Visitor& visit, Optics& optics) {
+  visit(Field{.key = "aperture_m",
+              .unit = "m",
+              .sentence = "Diameter of the lens's opening, for `camera_defocus`, `projector_defocus` and "
+                          "`diffraction`.",
+              .low = 0,
+              .high = 10,
+              .low_excluded = true},
+        optics.aperture_m);
+  visit(Field{.key = "focus_m",
+              .unit = "m",
+              .sentence = "Axial depth of the plane that is sharp.",
+              .low = 0,
+              .high = farthest_m,
+              .low_excluded = true},
+        optics.focus_m);
+  visit(Field{.key = "wavelength_m",
+              .unit = "m",
+              .sentence = "Of the light, for `diffraction`.",
+              .low = 1e-7,
+              .high = 1e-5},
+        optics.wavelength_m);
+  visit(Field{.key = "fill_factor",
+              .sentence = "Share of a pixel's area that is active: a square about its centre.",
+              .low = 0,
+              .high = 1,
+              .low_excluded = true},
+        optics.fill_factor);
+}
+
+template <class Visitor>
 void describe(Visitor& visit, ProjectorEffects& effects) {
   visit(Field{.key = "vignetting", .sentence = "What share of the light the lens passes."},
         effects.vignetting);
@@ -142,6 +173,7 @@ void describe(Visitor& visit, ProjectorEffects& effects) {
               .low = 0,
               .high = 1},
         effects.veiling_glare);
+  describe(visit, effects.optics);
 }
 
 template <class Visitor>
@@ -183,6 +215,25 @@ void describe(Visitor& visit, MeshEffects& effects) {
               .sentence = "A colour picture of normals: red along s, green along t, blue outwards, each 0 to "
                           "1 for -1 to 1; relative to the scene file."},
         effects.normal_map);
+  visit(Field{.key = "displacement_map",
+              .sentence =
+                  "A picture of heights, linear, 0 to 1, through the mesh's texture coordinates; 16 bits or "
+                  "floats give no steps; relative to the scene file."},
+        effects.displacement_map);
+  visit(Field{.key = "displacement",
+              .sentence =
+                  "How far white moves the surface outwards along its smooth normal (negative: inwards), in "
+                  "the mesh file's unit, before `scale`; black stays.",
+              .low = -1e6,
+              .high = 1e6},
+        effects.displacement);
+  visit(Field{.key = "displacement_edge_px",
+              .unit = "px",
+              .sentence =
+                  "The mesh is refined until no edge is longer than this many pixels of displacement_map.",
+              .low = 0.1,
+              .high = 16384},
+        effects.displacement_edge_px);
 }
 
 template <class Visitor>
@@ -526,6 +577,14 @@ void describe(Visitor& visit, CameraSpec& camera) {
   visit(Field{.key = "sensor", .sentence = "How light becomes digital numbers."}, camera.sensor);
   visit(Field{.key = "vignetting", .sentence = "What share of the light the lens passes."},
         camera.vignetting);
+  visit(Field{.key = "samples_per_pixel",
+              .sentence = "A pixel is the mean of this many rays, spread over its area (with "
+                          "`antialiasing`), the aperture (`camera_defocus`) and the Airy pattern "
+                          "(`diffraction`).",
+              .low = 1,
+              .high = most_samples_per_pixel},
+        camera.samples_per_pixel);
+  describe(visit, camera.optics);
 }
 
 template <class Visitor>
@@ -580,6 +639,21 @@ void describe(Visitor& visit, PatternsSpec& patterns) {
 }
 
 template <class Visitor>
+void describe(Visitor& visit, InterReflection& reflection) {
+  visit(Field{.key = "bounces",
+              .sentence = "How many surfaces light visits before the one that the camera sees.",
+              .low = 0,
+              .high = most_bounces},
+        reflection.bounces);
+  visit(Field{.key = "paths",
+              .sentence = "How many ways back are followed from each camera sample; noise falls as "
+                          "1/√paths.",
+              .low = 1,
+              .high = most_paths},
+        reflection.paths);
+}
+
+template <class Visitor>
 void describe(Visitor& visit, SceneSpec& scene) {
   visit(Field{.key = "name", .sentence = "What reports call the scene."}, scene.name);
   visit(Field{.key = "ambient_lx",
@@ -592,6 +666,8 @@ void describe(Visitor& visit, SceneSpec& scene) {
   visit(
       Field{.key = "effects", .sentence = "One switch for each effect; what it needs stands with its noun."},
       scene.effects);
+  visit(Field{.key = "inter_reflection", .sentence = "Light from surface to surface."},
+        scene.inter_reflection);
   visit(Field{.key = "mesh", .sentence = "A surface; at least one."}, scene.meshes);
   visit(Field{.key = "projector", .sentence = "A device that emits."}, scene.projectors);
   visit(Field{.key = "camera", .sentence = "A device that measures."}, scene.cameras);

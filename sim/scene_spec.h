@@ -8,6 +8,7 @@
 #include "sim/fields.h"
 #include "sim/image_file.h"
 #include "sim/scene.h"
+#include "sim/scene_limits.h"
 
 #include <glm/glm.hpp>
 
@@ -17,9 +18,6 @@
 #include <vector>
 
 namespace laterna {
-
-/// Farther out, a millimetre is lost in a double's last bits once it is squared.
-inline constexpr double farthest_m = 1e9;
 
 enum class UpAxis { y, z };
 
@@ -78,6 +76,8 @@ struct CameraSpec {
   DeviceSpec device{};
   Sensor sensor{};
   Vignetting vignetting{};
+  int samples_per_pixel = Camera{}.samples_per_pixel;
+  Optics optics{};
   bool operator==(const CameraSpec&) const = default;
 };
 
@@ -94,6 +94,7 @@ struct SceneSpec {
   double ambient_lx = 0;
   PatternsSpec patterns{};
   Effects effects{};
+  InterReflection inter_reflection{};
   std::vector<MeshSpec> meshes{};
   std::vector<ProjectorSpec> projectors{};
   std::vector<CameraSpec> cameras{};

@@ -2,8 +2,10 @@
 
 #include "apps/bench/timing.h"
 #include "apps/lab/trial.h"
+#include "render/automatic_exposure.h"
 #include "render/noise.h"
 #include "render/replay.h"
+#include "render/trace_rows.h"
 #include "sim/parallel.h"
 
 #include <cstring>
@@ -65,7 +67,11 @@ struct Prepared {
         directions(scene.cameras[0].device),
         surface(trace_surface(rays, scene, scene.cameras[0], directions)),
         light(trace_light(rays, scene, surface, scene.projectors[0])),
-        exposure(make_exposure({}, automatic_saturation_cd_per_m2(surface, {&light, 1}, 0), {})) {}
+        exposure(make_exposure({}, automatic_saturation(scene), {})) {}
+  double automatic_saturation(const Scene& scene) const {
+    const ImageRows direct = image(scene, 1);
+    return automatic_saturation_cd_per_m2({&direct, 1});
+  }
   ImageRows image(const Scene& scene, int samples) const {
     return {scene.cameras[0].device.intrinsics.size, trace_rows(rays, scene, 0, directions, 0, {samples, 1})};
   }

@@ -1,6 +1,7 @@
 #include "apps/lab/calibrate_folder.h"
 
 #include "apps/lab/trial.h"
+#include "render/effects/displacement.h"
 #include "render/ray_scene.h"
 #include "sim/error.h"
 
@@ -43,9 +44,11 @@ struct Collected {
 }  // namespace
 
 std::vector<FolderEstimate> calibrate_folder(const std::filesystem::path& folder,
-                                             const CaptureManifest& manifest, const Scene& scene,
+                                             const CaptureManifest& manifest, const Scene& given,
                                              const SolveOptions& solve_options,
                                              const DecodeOptions& decode_options, const Progress& progress) {
+  std::optional<Scene> storage;
+  const Scene& scene = displaced(given, storage);
   const RayScene rays(scene);
   std::map<int, PixelArray<glm::dvec3>> points;
   std::map<std::string, Collected> projectors;

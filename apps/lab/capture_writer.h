@@ -10,20 +10,17 @@ namespace laterna {
 
 struct CaptureOptions {
   std::uint64_t seed = 1;
-  std::string format = "png";  ///< png, tif or pgm
+  std::string format = "png";  ///< png, tif, pgm, exr or tif-pages; see sim/capture_folder.h
   bool truth = true;           ///< per camera pixel, as multi-layer EXR in single precision
 };
 
 /// Captures every view of a scene into the new folder `target` (sim/capture_folder.h describes it). `folder`
 /// is where the scene file stands. Throws InputError where `target` exists or cannot be written; then nothing
 /// is left behind.
-void write_capture(const SceneSpec& spec, const Scene& scene, const std::filesystem::path& folder,
-                   const std::filesystem::path& target, const CaptureOptions& options, StageTimes& times,
-                   const Progress& progress = {});
-
-/// The truth of one view, one layer each, float: projector.u, projector.v (px, NaN where the point is behind
-/// the projector or nothing is seen), projector.lit (1 or 0), depth.m (axial, NaN where nothing is seen),
-/// normal.x, .y, .z (world), world.x, .y, .z (m), object.id (-1: none).
-void write_truth(const std::filesystem::path& path, const Traced& traced, const View& view);
+/// Returns what a person should be warned of (capture_warnings.h); `progress` gets it before the pictures.
+std::vector<std::string> write_capture(const SceneSpec& spec, const Scene& scene,
+                                       const std::filesystem::path& folder,
+                                       const std::filesystem::path& target, const CaptureOptions& options,
+                                       StageTimes& times, const Progress& progress = {});
 
 }  // namespace laterna

@@ -1,8 +1,10 @@
 #include "apps/lab/simulation.h"
 
+#include "render/automatic_exposure.h"
 #include "render/effects/apply_effects.h"
+#include "render/effects/displacement.h"
 #include "render/exposure.h"
-#include "render/replay.h"
+#include "render/trace_rows.h"
 #include "sim/error.h"
 
 #include <fmt/format.h>
@@ -27,10 +29,96 @@ double StageTimes::total() const {
   return sum;
 }
 
-Traced trace(const Scene& scene, StageTimes& times, const Progress& progress) {
+namespace {
+
+// Rows of direct light at pixel centres, with the black of the other projectors.
+ImageRows direct_view_rows(const Scene& scene, const Traced& traced, const View& view) {
+  const SurfaceMap& surface = traced.surfaces[view.camera];
+  std::vector<IdleLight> idle;
+  for (const IdleProjector& i : idle_projectors(scene, view.projector)) {
+    const auto same = [&](const View& v) { return v.camera == view.camera && v.projector == i.projector; };
+    idle.push_back({&std::find_if(traced.views.begin(), traced.views.end(), same)->light, i.share});
+  }
+  return {{surface.width, surface.height}, [&scene, &surface, &view, idle](LightRows& rows) {
+            direct_rows(surface, view.light, idle, scene.ambient_lx, rows);
+          }};
+}
+
+}  // namespace
+
+Rig make_rig(const Scene& scene, StageTimes& times) {
   if (scene.projectors.empty()) throw InputError("the scene has no [[projector]], expected at least one");
   if (scene.cameras.empty()) throw InputError("the scene has no [[camera]], expected at least one");
-  Traced traced{times.measure("build", [&] { return RayScene(scene); }), {}, {}, {}};
+  std::optional<Scene> moved;
+  times.measure("build", [&] { displaced(scene, moved); });
+  Rig rig{times.measure("build", [&] { return RayScene(moved ? *moved : scene); }), {}, {}};
+  if (moved) rig.displaced = std::make_unique<const Scene>(std::move(*moved));
+  times.measure("surface", [&] {
+    for (const Camera& camera : scene.cameras) rig.directions.emplace_back(camera.device);
+  });
+  return rig;
+}
+
+StripTracer::StripTracer(const Scene& scene, const Rig& rig, int camera, int projector)
+    : scene_(rig.as_seen(scene)),
+      rig_(rig),
+      camera_(camera),
+      projector_(projector),
+      eye_(make_camera_view(rig.rays, scene_, scene_.cameras[camera])),
+      source_(make_projector_view(rig.rays, scene_, scene_.projectors[projector])) {}
+
+int StripTracer::count() const { return (rig_.directions[camera_].height() + tile_edge - 1) / tile_edge; }
+
+Strip StripTracer::trace(int tile_row) const {
+  const CameraRays& directions = rig_.directions[camera_];
+  const int y = tile_row * tile_edge, height = std::min(tile_edge, directions.height() - y);
+  Strip strip{make_surface_map({0, y, directions.width(), height}),
+              make_light_map(directions.width(), height)};
+  trace_surface_tiles(rig_.rays, eye_, directions, 0, strip.surface);
+  trace_light_tiles(rig_.rays, source_, strip.surface, 0, strip.light);
+  apply_light_effects(strip.light, strip.surface, rig_.rays, scene_, scene_.projectors[projector_],
+                      scene_.cameras[camera_]);
+  return strip;
+}
+
+ImageRows rig_rows(const Scene& scene, const Rig& rig, int camera, int projector,
+                   const PixelSamples& samples) {
+  const CameraRays& directions = rig.directions[camera];
+  return {{directions.width(), directions.height()},
+          trace_rows(rig.rays, rig.as_seen(scene), camera, directions, projector, samples),
+          region_px_of(scene, samples)};
+}
+
+namespace {
+
+// Rows by which a view is exposed: those of pixel centres, or, where surfaces light each other, which costs
+// many rays, those of every sixteenth tile along diagonals.
+ImageRows exposure_rows(const Scene& scene, const Rig& rig, int camera, int projector) {
+  const ImageRows all = rig_rows(scene, rig, camera, projector, {});
+  if (!scene.effects.inter_reflection) return all;
+  const RowSource some = [rows = all.rows](LightRows& out) {
+    const PixelRegion& r = out.region;
+    if ((r.x + 3 * r.y) / tile_edge % 16 == 0) return rows(out);
+    out.begin.assign(r.size() + 1, 0);
+    out.entries.clear();
+    out.ambient_cd_per_m2.assign(r.size(), 0);
+  };
+  return {all.size, some, glm::ivec2(tile_edge)};
+}
+
+}  // namespace
+
+double saturation_cd_per_m2(const Scene& scene, const Rig& rig, int camera, int projector,
+                            StageTimes& times) {
+  const std::optional<double> fixed = fixed_saturation_cd_per_m2(scene.cameras[camera].sensor);
+  if (fixed) return *fixed;
+  const ImageRows rows = exposure_rows(scene, rig, camera, projector);
+  return times.measure("exposure", [&] { return automatic_saturation_cd_per_m2({&rows, 1}); });
+}
+
+Traced trace(const Scene& given, StageTimes& times, const Progress& progress) {
+  Traced traced{make_rig(given, times), {}, {}, {}};
+  const Scene& scene = traced.as_seen(given);
   const RayScene& rays = traced.rays;
   for (int c = 0; c < int(scene.cameras.size()); ++c) {
     const Camera& camera = scene.cameras[c];
@@ -39,7 +127,8 @@ Traced trace(const Scene& scene, StageTimes& times, const Progress& progress) {
                            camera.device.intrinsics.size.x, camera.device.intrinsics.size.y,
                            camera.device.name, scene.projectors.size()));
     }
-    traced.surfaces.push_back(times.measure("surface", [&] { return trace_surface(rays, scene, camera); }));
+    traced.surfaces.push_back(
+        times.measure("surface", [&] { return trace_surface(rays, scene, camera, traced.directions[c]); }));
     traced.points_world.push_back(
         times.measure("surface", [&] { return points_world(traced.surfaces[c], scene); }));
     std::vector<LightMap> lights;
@@ -48,34 +137,47 @@ Traced trace(const Scene& scene, StageTimes& times, const Progress& progress) {
           times.measure("light", [&] { return trace_light(rays, scene, traced.surfaces[c], projector); }));
     }
     times.measure("effects", [&] { apply_effects(traced.surfaces[c], lights, rays, scene, camera); });
-    for (int p = 0; p < int(lights.size()); ++p) {
-      const std::optional<double> fixed = fixed_saturation_cd_per_m2(camera.sensor);
-      const double saturation =
-          fixed ? *fixed
-                : automatic_saturation_cd_per_m2(traced.surfaces[c], {&lights[p], 1}, scene.ambient_lx);
-      traced.views.push_back({c, p, std::move(lights[p]), saturation});
-    }
+    for (int p = 0; p < int(lights.size()); ++p) traced.views.push_back({c, p, std::move(lights[p]), 0});
+  }
+  for (View& view : traced.views) {
+    const std::optional<double> fixed = fixed_saturation_cd_per_m2(scene.cameras[view.camera].sensor);
+    view.saturation_cd_per_m2 = fixed ? *fixed : times.measure("exposure", [&] {
+      const ImageRows rows = rows_are_direct(scene, view.camera)
+                                 ? direct_view_rows(scene, traced, view)
+                                 : exposure_rows(scene, traced, view.camera, view.projector);
+      return automatic_saturation_cd_per_m2({&rows, 1});
+    });
   }
   return traced;
 }
 
+ImageRows view_rows(const Scene& scene, const Traced& traced, const View& view, std::uint64_t seed) {
+  if (rows_are_direct(scene, view.camera)) return direct_view_rows(scene, traced, view);
+  return rig_rows(scene, traced, view.camera, view.projector, samples_of(scene, view.camera, seed));
+}
+
+CapturedStack capture_rows(const Scene& scene, int camera, int projector, const ImageRows& rows,
+                           double saturation_cd_per_m2, std::uint64_t seed, StageTimes& times) {
+  const Projector& source = scene.projectors[projector];
+  const Exposure exposure = make_exposure(scene.cameras[camera].sensor, saturation_cd_per_m2,
+                                          {seed, std::uint32_t(camera), std::uint32_t(projector)});
+  const auto play = [&](const Show& show) {
+    return times.measure("capture", [&] { return play_stack(rows, source.lookup, show, exposure); });
+  };
+  const PatternSequence sequence = pattern_sequence(scene, source);
+  if (source.lookup == Lookup::nearest && !edits_patterns(scene.effects) && is_binary(sequence)) {
+    const BinaryPatternStack bits =
+        times.measure("patterns", [&] { return make_binary_pattern_stack(sequence); });
+    return play(bits);
+  }
+  const PatternStack values = times.measure("patterns", [&] { return make_patterns(scene, source); });
+  return play(values);
+}
+
 CapturedStack capture_view(const Scene& scene, const Traced& traced, const View& view, std::uint64_t seed,
                            StageTimes& times) {
-  const Projector& projector = scene.projectors[view.projector];
-  const Exposure exposure = make_exposure(
-      scene.cameras[view.camera].sensor, view.saturation_cd_per_m2,
-      {seed, static_cast<std::uint32_t>(view.camera), static_cast<std::uint32_t>(view.projector)});
-  const auto play = [&](const AnyPatterns& patterns) {
-    return times.measure("capture", [&] {
-      return capture_stack(traced.surfaces[view.camera], view.light, projector, patterns, scene.ambient_lx,
-                           exposure);
-    });
-  };
-  const PatternSequence sequence = pattern_sequence(scene, projector);
-  if (projector.lookup == Lookup::nearest && !edits_patterns(scene.effects) && is_binary(sequence)) {
-    return play(times.measure("patterns", [&] { return make_binary_pattern_stack(sequence); }));
-  }
-  return play(times.measure("patterns", [&] { return make_patterns(scene, projector); }));
+  return capture_rows(scene, view.camera, view.projector, view_rows(scene, traced, view, seed),
+                      view.saturation_cd_per_m2, seed, times);
 }
 
 Overlap overlap(const Scene& scene, const Traced& traced, const View& view) {

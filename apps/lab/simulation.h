@@ -3,6 +3,8 @@
 #pragma once
 
 #include "render/direct_light.h"
+#include "render/image_rows.h"
+#include "render/pixel_samples.h"
 #include "render/ray_scene.h"
 #include "render/surface.h"
 #include "sim/image.h"
@@ -10,6 +12,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -41,9 +44,21 @@ struct View {
   double saturation_cd_per_m2 = 0;
 };
 
-/// What does not depend on the patterns: rays are traced once.
-struct Traced {
+/// A scene ready for rays, and the rays of its cameras.
+struct Rig {
   RayScene rays;
+  std::vector<CameraRays> directions;  ///< one per camera
+  std::unique_ptr<const Scene>
+      displaced;  ///< the scene that the rays meet where displacement moves its meshes
+
+  const Scene& as_seen(const Scene& given) const { return displaced ? *displaced : given; }
+};
+
+/// Throws InputError where the scene has no projector or no camera.
+Rig make_rig(const Scene& scene, StageTimes& times);
+
+/// What does not depend on the patterns: rays are traced once.
+struct Traced : Rig {
   std::vector<SurfaceMap> surfaces;  ///< one per camera
   std::vector<PixelArray<glm::dvec3>>
       points_world;         ///< one per camera: what each pixel sees, m; NaN where nothing
@@ -54,9 +69,47 @@ struct Traced {
 /// sensor's own, or automatic. Throws InputError where the scene has no projector or no camera.
 Traced trace(const Scene& scene, StageTimes& times, const Progress& progress = {});
 
+/// What a row of tiles of a camera's image sees, and one projector's light on it, at pixel centres.
+struct Strip {
+  SurfaceMap surface;
+  LightMap light;
+};
+
+/// Traces one view strip by strip, so that no map of the image is held. What it is made from must outlive it.
+class StripTracer {
+ public:
+  StripTracer(const Scene& scene, const Rig& rig, int camera, int projector);
+  int count() const;  ///< of rows of tiles
+  Strip trace(int tile_row) const;
+
+ private:
+  const Scene& scene_;
+  const Rig& rig_;
+  int camera_, projector_;
+  CameraView eye_;
+  ProjectorView source_;
+};
+
+/// The rows of one view, with every effect of the scene, traced at each call: no map of the image is held.
+ImageRows rig_rows(const Scene& scene, const Rig& rig, int camera, int projector,
+                   const PixelSamples& samples);
+
+/// The luminance that fills the scale: the sensor's own, or automatic, from the light at pixel centres (at
+/// every sixteenth tile of them with inter-reflection).
+double saturation_cd_per_m2(const Scene& scene, const Rig& rig, int camera, int projector, StageTimes& times);
+
+/// The rows of one view, with every effect of the scene: from the maps where a pixel's row is the direct
+/// light at its centre, else traced anew at each call. `scene` and `traced` must outlive the result. `seed`
+/// places samples.
+ImageRows view_rows(const Scene& scene, const Traced& traced, const View& view, std::uint64_t seed);
+
 /// The pictures of one view: the projector's sequence with the other projectors at black.
 CapturedStack capture_view(const Scene& scene, const Traced& traced, const View& view, std::uint64_t seed,
                            StageTimes& times);
+
+/// Pictures of rows at hand. `seed` draws the noise.
+CapturedStack capture_rows(const Scene& scene, int camera, int projector, const ImageRows& rows,
+                           double saturation_cd_per_m2, std::uint64_t seed, StageTimes& times);
 
 /// Share of something, in per cent, for people.
 struct Overlap {

@@ -3,6 +3,7 @@
 #include "render/effects/attenuation.h"
 #include "render/effects/gloss.h"
 #include "render/effects/normal_map.h"
+#include "render/effects/projector_defocus.h"
 #include "render/effects/response.h"
 #include "render/effects/scaler.h"
 #include "render/effects/slide.h"
@@ -22,19 +23,48 @@ void apply_effects(SurfaceMap& surface, std::span<LightMap> lights, const RaySce
     throw InputError(fmt::format("effects: light of {} projectors, expected the scene's {}", lights.size(),
                                  scene.projectors.size()));
   }
+  apply_surface_effects(surface, scene);
+  for (std::size_t i = 0; i < lights.size(); ++i)
+    apply_light_effects(lights[i], surface, rays, scene, scene.projectors[i], camera);
+  apply_camera_effects(surface, rays, scene, camera);
+}
+
+void apply_surface_effects(SurfaceMap& surface, const Scene& scene) {
+  if (scene.effects.solid_albedo) apply_solid_albedo(surface, scene);
+  if (scene.effects.gloss) make_room_for_gloss(surface, scene);
+}
+
+namespace {
+
+// `camera`: who looks; null: nobody in particular.
+void weigh_light(LightMap& light, const SurfaceMap& surface, const RayScene& rays, const Scene& scene,
+                 const Projector& projector, const Camera* camera) {
   const Effects& on = scene.effects;
   const PixelGeometry geometry(surface, rays, scene);
-  if (on.solid_albedo) apply_solid_albedo(surface, scene);
-  if (on.gloss) make_room_for_gloss(surface, scene);
-  for (std::size_t i = 0; i < lights.size(); ++i) {
-    const Projector& projector = scene.projectors[i];
-    if (on.normal_map && on.irradiance) apply_normal_map(lights[i], geometry, projector);
-    if (on.gloss) apply_gloss(lights[i], geometry, projector, camera);
-    if (on.attenuation) apply_attenuation(lights[i], geometry, projector);
-    if (on.spotlight) apply_spotlight(lights[i], geometry, projector);
-    if (on.projector_vignetting) apply_projector_vignetting(lights[i], geometry, projector);
-  }
-  if (on.camera_vignetting) apply_camera_vignetting(surface, geometry, camera);
+  if (on.normal_map && on.irradiance) apply_normal_map(light, geometry, projector);
+  if (on.gloss && camera) apply_gloss(light, geometry, projector, *camera);
+  if (on.attenuation) apply_attenuation(light, geometry, projector);
+  if (on.spotlight) apply_spotlight(light, geometry, projector);
+  if (on.projector_vignetting) apply_projector_vignetting(light, geometry, projector);
+  if (on.projector_defocus) apply_projector_defocus(light, geometry, projector);
+}
+
+}  // namespace
+
+void apply_light_effects(LightMap& light, const SurfaceMap& surface, const RayScene& rays, const Scene& scene,
+                         const Projector& projector, const Camera& camera) {
+  weigh_light(light, surface, rays, scene, projector, &camera);
+}
+
+void apply_light_effects(LightMap& light, const SurfaceMap& surface, const RayScene& rays, const Scene& scene,
+                         const Projector& projector) {
+  weigh_light(light, surface, rays, scene, projector, nullptr);
+}
+
+void apply_camera_effects(SurfaceMap& surface, const RayScene& rays, const Scene& scene,
+                          const Camera& camera) {
+  if (!scene.effects.camera_vignetting) return;
+  apply_camera_vignetting(surface, PixelGeometry(surface, rays, scene), camera);
 }
 
 void apply_effects(PatternStack& patterns, const Scene& scene, const Projector& projector) {

@@ -13,11 +13,23 @@
 namespace laterna {
 
 /// What edits surfaces and weights, after trace_surface and trace_light: solid albedo; for each projector's
-/// light normal map, gloss, attenuation, spotlight, projector vignetting; then camera vignetting. `lights`
-/// has one per projector of the scene, in its order, all traced from `surface` as `camera` sees it. What is
-/// off leaves every bit as it was. Throws InputError where the counts differ.
+/// light normal map, gloss, attenuation, spotlight, projector vignetting, projector defocus (footprints);
+/// then camera vignetting. `lights` has one per projector of the scene, in its order, all traced from
+/// `surface` as `camera` sees it. What is off leaves every bit as it was. Throws InputError where the counts
+/// differ.
 void apply_effects(SurfaceMap& surface, std::span<LightMap> lights, const RayScene& rays, const Scene& scene,
                    const Camera& camera);
+
+/// The three parts of that, for maps of any region: what acts on the surface, on one projector's light, and
+/// last on what the camera's lens lets through.
+void apply_surface_effects(SurfaceMap& surface, const Scene& scene);
+void apply_light_effects(LightMap& light, const SurfaceMap& surface, const RayScene& rays, const Scene& scene,
+                         const Projector& projector, const Camera& camera);
+/// The same for light that goes on diffusely, to no one camera: without gloss.
+void apply_light_effects(LightMap& light, const SurfaceMap& surface, const RayScene& rays, const Scene& scene,
+                         const Projector& projector);
+void apply_camera_effects(SurfaceMap& surface, const RayScene& rays, const Scene& scene,
+                          const Camera& camera);
 
 /// What edits patterns: scaler (after which the stack has the panel's size), response, black level, veiling
 /// glare. What is off leaves every bit as it was.

@@ -28,4 +28,11 @@ void apply_black_level(PatternStack& patterns, const ProjectorEffects& effects) 
   for (float& light : patterns.light_of_value) light = float(black + (1 - black) * double(light));
 }
 
+double black_light(const Effects& on, const ProjectorEffects& effects) {
+  const bool has_table = on.response && !effects.response_table.empty();
+  const double response = has_table ? effects.response_table[0] : 0;
+  const double black = on.black_level ? effects.black_level.value_or(0) : 0;
+  return black + (1 - black) * response;
+}
+
 }  // namespace laterna

@@ -14,4 +14,7 @@ namespace laterna {
 void apply_response(PatternStack& patterns, const ProjectorEffects& effects);
 void apply_black_level(PatternStack& patterns, const ProjectorEffects& effects);
 
+/// The light of a black picture over that of white, with the switches `on`; veiling glare leaves it as it is.
+double black_light(const Effects& on, const ProjectorEffects& effects);
+
 }  // namespace laterna

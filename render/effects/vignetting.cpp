@@ -54,9 +54,9 @@ void apply_camera_vignetting(SurfaceMap& surface, const PixelGeometry& geometry,
   if (camera.vignetting.model == VignettingModel::none) return;
   const auto width = std::size_t(surface.width);
   weigh_albedo(surface, [&](std::size_t p) {
-    return vignetting_share(camera.vignetting, camera.vignetting_map.get(),
-                            tan2(geometry.in_device(camera.device, p)),
-                            {double(p % width), double(p / width)}, camera.device.intrinsics.size);
+    return vignetting_share(
+        camera.vignetting, camera.vignetting_map.get(), tan2(geometry.in_device(camera.device, p)),
+        glm::dvec2(surface.first_px) + glm::dvec2(p % width, p / width), camera.device.intrinsics.size);
   });
 }
 

@@ -195,7 +195,7 @@ TEST(CaptureStack, GrayCodesArriveAsTheyWereSent) {
   const GraySequence sequence{{60, 40}};
   const PatternStack patterns = make_pattern_stack(sequence);
   const Traced traced(scene);
-  const double saturation = automatic_saturation_cd_per_m2(traced.surface, {&traced.light, 1}, 0);
+  const double saturation = testing::automatic_saturation(traced);
   const auto stack = std::get<ImageStack<std::uint8_t>>(
       capture_stack(traced.surface, traced.light, scene.projectors[0], patterns, 0, {8, saturation, 0, {}}));
   ASSERT_EQ(stack.count, picture_count(sequence));

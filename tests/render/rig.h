@@ -1,7 +1,9 @@
 // Scenes that the render tests share, and a capture in one call.
 #pragma once
 
+#include "render/automatic_exposure.h"
 #include "render/replay.h"
+#include "render/trace_rows.h"
 #include "sim/shapes.h"
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -43,6 +45,13 @@ struct Traced {
     return int(std::count(light.why.values.begin(), light.why.values.end(), std::uint8_t(why)));
   }
 };
+
+/// The luminance that fills the scale with automatic exposure, without ambient light.
+inline double automatic_saturation(const Traced& traced) {
+  const ImageRows image{{traced.surface.width, traced.surface.height},
+                        [&](LightRows& rows) { direct_rows(traced.surface, traced.light, {}, 0, rows); }};
+  return automatic_saturation_cd_per_m2({&image, 1});
+}
 
 inline PatternStack constant_pattern(glm::ivec2 size, int count, std::uint8_t value) {
   return {size.x, size.y, count, std::vector<std::uint8_t>(std::size_t(size.x) * size.y * count, value)};

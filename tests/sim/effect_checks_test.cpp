@@ -1,5 +1,6 @@
 #include "sim/effect_checks.h"
 
+#include "sim/scene_build.h"
 #include "sim/scene_file.h"
 #include "tests/testing.h"
 
@@ -39,15 +40,63 @@ TEST(EffectChecks, ASwitchWithoutItsParametersNamesTheMissingKey) {
   expect("attenuation", "projector", "attenuation");
   expect("gloss", "mesh", "gloss");
   expect("normal_map", "mesh", "normal_map");
+  expect("displacement", "mesh", "displacement_map");
   expect("solid_albedo", "mesh", "solid");
   expect("response", "projector", "response_exponent");
   expect("black_level", "projector", "black_level");
+  expect("camera_defocus", "camera", "aperture_m (with focus_m)");
+  expect("projector_defocus", "projector", "aperture_m (with focus_m)");
+}
+
+TEST(EffectChecks, BlurNeedsItsOpticsAndRays) {
+  const std::string scene = mesh + projector + camera, lens = "aperture_m = 0.007\nfocus_m = 0.5\n";
+  EXPECT_THAT(error_of(scene + switch_on("diffraction")), HasSubstr("no device has the key aperture_m"));
+  EXPECT_THAT(error_of(scene + switch_on("fill_factor")), HasSubstr("no device has one below 1"));
+  EXPECT_THAT(error_of(scene + lens + switch_on("camera_defocus")), HasSubstr("samples_per_pixel"));
+  EXPECT_THAT(error_of(scene + lens + switch_on("diffraction")), HasSubstr("samples_per_pixel"));
+  EXPECT_THAT(error_of(scene + "fill_factor = 0.5\n" + switch_on("fill_factor")),
+              HasSubstr("antialiasing is off"));
+  parse_scene(scene + lens + "samples_per_pixel = 4\nfill_factor = 0.5\n" + switch_on("camera_defocus") +
+                  "diffraction = true\nantialiasing = true\nfill_factor = true\n",
+              "s");
+}
+
+TEST(EffectChecks, ALensThatIsSwitchedOffIsAPinhole) {
+  const std::string lens = "lens = { model = \"LENSMODEL_OPENCV4\", parameters = [-0.1, 0, 0, 0] }\n";
+  const std::string text = mesh + projector + lens + camera + lens;
+  const auto load = [&](const std::string& effects) {
+    return build_scene(parse_scene(text + effects, "s"), {});
+  };
+  for (const Scene& scene :
+       {load(""), load("[effects]\ncamera_lens = false\n"), load("[effects]\nprojector_lens = false\n")}) {
+    EXPECT_EQ(is_pinhole(scene.cameras[0].device.lens), !scene.effects.camera_lens);
+    EXPECT_EQ(is_pinhole(scene.projectors[0].device.lens), !scene.effects.projector_lens);
+  }
 }
 
 TEST(EffectChecks, ASlidesThreeKeysGoTogether) {
   EXPECT_THAT(error_of(mesh + switch_on("slide")), HasSubstr("kind of [patterns] is \"gray\""));
   EXPECT_THAT(error_of(mesh + slide), HasSubstr("slide of [effects] is off"));
   EXPECT_THAT(error_of(mesh + slide + switch_on("slide")), HasSubstr("[patterns] has no key file"));
+}
+
+TEST(EffectChecks, InterReflectionHasBouncesAndRowsThatFitInMemory) {
+  const auto error = [&](const std::string& numbers) {
+    return error_of(mesh + camera + switch_on("inter_reflection") + "[inter_reflection]\n" + numbers);
+  };
+  EXPECT_THAT(error("paths = 8\n"), HasSubstr("[inter_reflection] has no bounces, expected at least 1"));
+  EXPECT_THAT(error("bounces = 65\n"), HasSubstr("bounces"));
+  EXPECT_THAT(error("bounces = 1\npaths = 0\n"), HasSubstr("paths"));
+  EXPECT_THAT(error("bounces = 64\npaths = 4097\n"), HasSubstr("paths"));
+  EXPECT_EQ(parse_scene(mesh + camera + switch_on("inter_reflection") +
+                            "[inter_reflection]\nbounces = 64\npaths = 4096\n",
+                        "s")
+                .inter_reflection,
+            (InterReflection{64, 4096}));
+  const std::string sampled = camera + "samples_per_pixel = 2\n";
+  EXPECT_THAT(error_of(mesh + sampled + switch_on("inter_reflection") +
+                       "antialiasing = true\n[inter_reflection]\nbounces = 64\npaths = 4096\n"),
+              HasSubstr("2 samples per pixel × 4096 paths × 64 bounces = 524288, expected at most 262144"));
 }
 
 TEST(EffectChecks, ParametersThatMakeNoSense) {
@@ -63,6 +112,10 @@ TEST(EffectChecks, ParametersThatMakeNoSense) {
   EXPECT_THAT(projector_error("response_table = [0, 1]\nresponse_exponent = 2\n"), HasSubstr("both given"));
   EXPECT_THAT(error_of(mesh + "gloss = { model = \"phong\" }\n"), HasSubstr("exponent is missing"));
   EXPECT_THAT(error_of(mesh + "gloss = { model = \"ggx\" }\n"), HasSubstr("roughness is missing"));
+  EXPECT_THAT(error_of(mesh + "displacement = 0.1\n"), HasSubstr("displacement_map is missing"));
+  EXPECT_THAT(error_of(mesh + "displacement_map = \"h.png\"\n"), HasSubstr("displacement is missing or 0"));
+  EXPECT_THAT(error_of(mesh + "displacement_map = \"h.png\"\ndisplacement = 1e7\n"),
+              HasSubstr("displacement"));
   EXPECT_THAT(error_of(mesh + "gloss = { model = \"ggx\", roughness = 0.1, strength = 0.3 }\n"),
               HasSubstr("more than all light"));
 }
@@ -77,13 +130,16 @@ TEST(EffectChecks, EveryKeySurvivesWritingAndReading) {
     scene.effects.*effect.on = !(scene.effects.*effect.on);
   }
   EXPECT_EQ(names.size(), all_effects.size());
-  EXPECT_EQ(defaults_on, 5);
+  EXPECT_EQ(defaults_on, 7);
+  scene.inter_reflection = {3, 20};
   scene.patterns.parameters.kind = PatternKind::slide;
   scene.patterns.file = "slide.png";
   scene.patterns.encoding = Encoding::linear;
   scene.meshes[0].albedo = 0.5;
-  scene.meshes[0].effects = {{GlossModel::ggx, 0.25, {}, 0.3}, {SolidKind::noise, 0.7, 0.1}, "n.png"};
+  scene.meshes[0].effects = {
+      {GlossModel::ggx, 0.25, {}, 0.3}, {SolidKind::noise, 0.7, 0.1}, "n.png", "h.png", -0.5, 2.5};
   scene.cameras[0].vignetting = {VignettingModel::map, {}, "v.exr"};
+  scene.cameras[0].samples_per_pixel = 9;
   scene.projectors[0].effects = {
       .vignetting = {VignettingModel::polynomial, {-0.1, 0.01}, ""},
       .spotlight = {20.0, 3, 0.5},
@@ -92,7 +148,9 @@ TEST(EffectChecks, EveryKeySurvivesWritingAndReading) {
       .response_exponent = 1.707,
       .response_table = {},
       .black_level = 0.0005,
-      .veiling_glare = 0.03};
+      .veiling_glare = 0.03,
+      .optics = {0.007, 0.5, 6e-7, 0.9}};
+  scene.cameras[0].optics = {0.004, 1.5, 5e-7, 0.5};
   const std::string text = scene_toml(scene);
   EXPECT_EQ(parse_scene(text, "s"), scene) << text;
 }
@@ -113,6 +171,13 @@ TEST(EffectChecks, PicturesAreReadAndChecked) {
   EXPECT_EQ(scene.slide->light.width, 640);
   EXPECT_THAT(testing::input_error([&] { load(mesh + "normal_map = \"down.exr\"\n"); }),
               HasSubstr("blue above 0.5"));
+  write_picture(folder / "high.exr", Image<float>(4, 2, 1.5f));
+  EXPECT_THAT(
+      testing::input_error([&] { load(mesh + "displacement_map = \"high.exr\"\ndisplacement = 0.1\n"); }),
+      AllOf(HasSubstr("high.exr"), HasSubstr("a pixel is 1.5, expected 0 to 1")));
+  EXPECT_THAT(
+      testing::input_error([&] { load(mesh + "displacement_map = \"none.png\"\ndisplacement = 0.1\n"); }),
+      HasSubstr("none.png"));
   EXPECT_THAT(testing::input_error([&] { load(mesh + "normal_map = \"none.png\"\n"); }),
               HasSubstr("none.png"));
 }
