@@ -94,6 +94,26 @@ Image<float> read_fractions(const std::filesystem::path& path, Encoding encoding
   return map;
 }
 
+Slide read_slide(const PatternsSpec& patterns, const std::filesystem::path& path) {
+  return {about("[patterns]", [&] { return read_fractions(path, patterns.encoding); }),
+          patterns.encoding == Encoding::linear};
+}
+
+std::vector<Slide> read_slides(const PatternsSpec& patterns, const std::filesystem::path& folder) {
+  std::vector<Slide> slides;
+  for (const std::string& file : patterns.files) slides.push_back(read_slide(patterns, folder / file));
+  return slides;
+}
+
+/// Whether each projector can show the sequence; behind a scaler, another size is asked for when it does.
+void check_patterns(const Scene& scene) {
+  if (scene.effects.scaler) return;
+  for (const Projector& projector : scene.projectors)
+    about(heading("projector", projector.device.name), [&] {
+      validate(PatternSequence{scene.patterns, projector.device.intrinsics.size});
+    });
+}
+
 std::shared_ptr<const Image<float>> vignetting_map(const Vignetting& vignetting,
                                                    const std::filesystem::path& folder) {
   if (vignetting.model != VignettingModel::map) return {};
@@ -119,6 +139,15 @@ void add_normal_map(Object& object, const std::filesystem::path& folder) {
   object.normal_map = read_normal_map(folder / object.effects.normal_map);
 }
 
+void add_displacement_map(Object& object, const std::filesystem::path& folder) {
+  const std::string& file = object.effects.displacement_map;
+  if (file.empty()) return;
+  if (object.mesh.texture_coordinates.empty())
+    throw InputError("displacement_map is given, but the mesh has no texture coordinates");
+  object.displacement_map =
+      std::make_shared<const Image<float>>(read_fractions(folder / file, Encoding::linear));
+}
+
 Object build_object(const MeshSpec& spec, const std::filesystem::path& folder, Maps& maps) {
   Object object{.name = spec.name,
                 .mesh = {},
@@ -127,7 +156,8 @@ Object build_object(const MeshSpec& spec, const std::filesystem::path& folder, M
                 .albedo_map = {},
                 .effects = spec.effects,
                 .seed = spec.seed,
-                .normal_map = {}};
+                .normal_map = {},
+                .displacement_map = {}};
   if (spec.file.empty()) {
     object.mesh = make_shape({spec.shape, spec.shape_size, spec.detail, spec.seed});
   } else {
@@ -136,6 +166,7 @@ Object build_object(const MeshSpec& spec, const std::filesystem::path& folder, M
   validate(object.mesh, spec.file.empty() ? spec.shape : spec.file);
   expect_near(object.mesh, object.world_from_object);
   add_normal_map(object, folder);
+  add_displacement_map(object, folder);
   if (spec.albedo_map.empty()) return object;
   if (object.mesh.texture_coordinates.empty())
     throw InputError("albedo_map is given, but the mesh has no texture coordinates");
@@ -194,7 +225,7 @@ void check(const MeshSpec& mesh) {
                                          : "file and shape are both given, expected one of the two");
     }
     world_from_file(mesh);
-    check(mesh.effects.gloss, mesh.albedo);
+    check(mesh.effects, mesh.albedo);
   });
 }
 
@@ -238,9 +269,11 @@ Scene build_scene(const SceneSpec& spec, const std::filesystem::path& folder) {
               .projectors = {},
               .cameras = {},
               .ambient_lx = spec.ambient_lx,
-              .patterns = spec.patterns.kind,
+              .patterns = spec.patterns.parameters,
               .effects = spec.effects,
-              .slide = {}};
+              .inter_reflection = spec.inter_reflection,
+              .slide = {},
+              .pictures = {}};
   const SceneSpec named = with_names(spec);
   Maps maps;
   for (const MeshSpec& mesh : named.meshes) {
@@ -262,12 +295,11 @@ Scene build_scene(const SceneSpec& spec, const std::filesystem::path& folder) {
                              c.samples_per_pixel, c.optics});
   }
   switch_off_lenses(scene);
-  if (spec.effects.slide) {
-    scene.slide = std::make_shared<const Slide>(
-        Slide{about("[patterns]",
-                    [&] { return read_fractions(folder / spec.patterns.file, spec.patterns.encoding); }),
-              spec.patterns.encoding == Encoding::linear});
-  }
+  if (spec.effects.slide)
+    scene.slide = std::make_shared<const Slide>(read_slide(spec.patterns, folder / spec.patterns.file));
+  if (spec.patterns.parameters.kind == PatternKind::pictures)
+    scene.pictures = std::make_shared<const std::vector<Slide>>(read_slides(spec.patterns, folder));
+  check_patterns(scene);
   return scene;
 }
 

@@ -82,8 +82,9 @@ struct CameraSpec {
 };
 
 struct PatternsSpec {
-  PatternKind kind = PatternKind::gray;
-  std::string file{};
+  PatternParameters parameters{};
+  std::string file{};                ///< of a slide
+  std::vector<std::string> files{};  ///< of pictures
   Encoding encoding = Encoding::srgb;
   bool operator==(const PatternsSpec&) const = default;
 };
@@ -93,6 +94,7 @@ struct SceneSpec {
   double ambient_lx = 0;
   PatternsSpec patterns{};
   Effects effects{};
+  InterReflection inter_reflection{};
   std::vector<MeshSpec> meshes{};
   std::vector<ProjectorSpec> projectors{};
   std::vector<CameraSpec> cameras{};

@@ -3,7 +3,7 @@
 #include "apps/lab/capture_warnings.h"
 #include "apps/lab/matrices.h"
 #include "apps/lab/truth_picture.h"
-#include "render/effects/scaler.h"
+#include "render/effects/apply_effects.h"
 #include "render/trace_rows.h"
 #include "sim/capture_folder.h"
 #include "sim/error.h"
@@ -13,24 +13,42 @@
 #include "sim/self_contained.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
 
 namespace laterna {
 
 namespace {
 
+constexpr std::array formats{"png", "tif", "pgm", "exr", "tif-pages"};
+
+void check_format(const std::string& format, const Scene& scene) {
+  if (std::find(formats.begin(), formats.end(), format) == formats.end())
+    throw InputError(fmt::format("--format: found \"{}\", expected {}", format, fmt::join(formats, ", ")));
+  for (const Camera& camera : scene.cameras) {
+    if (format == "pgm" && camera.sensor.bit_depth > 8)
+      throw InputError(
+          fmt::format("--format: pgm holds 8 bits, but camera \"{}\" has {}; expected another format",
+                      camera.device.name, camera.sensor.bit_depth));
+  }
+}
+
+/// The files of one sequence, relative to the folder.
+std::vector<std::string> file_names(const std::string& folder, const std::string& format, int pictures) {
+  if (format == "tif-pages") return {folder + "/pages.tif"};
+  std::vector<std::string> names;
+  for (int k = 0; k < pictures; ++k) names.push_back(fmt::format("{}/{:02}.{}", folder, k, format));
+  return names;
+}
+
 void write_pictures(const std::filesystem::path& root, const CapturedStack& stack,
                     const std::vector<std::string>& names) {
-  std::visit(
-      [&](const auto& pictures) {
-        using Value = typename std::decay_t<decltype(pictures)>::value_type;
-        parallel_for(names.size(), [&](std::size_t k) {
-          const PixelType type = sizeof(Value) == 1 ? PixelType::u8 : PixelType::u16;
-          write_picture(root / names[k],
-                        {pictures.picture(int(k)).data(), pictures.width, pictures.height, 1, type, {"Y"}});
-        });
-      },
-      stack);
+  std::vector<std::filesystem::path> files;
+  for (const std::string& name : names) files.push_back(root / name);
+  write_stack(files, stack);
 }
 
 int count_of(const CapturedStack& stack) {
@@ -45,41 +63,54 @@ CaptureSequence describe(const Scene& scene, int camera_index, int projector_ind
   s.camera = camera.device.name;
   s.projector = projector.name;
   s.camera_size = camera.device.intrinsics.size;
-  s.projector_size = input_size(scene.effects, scene.projectors[projector_index]);
+  const PatternSequence patterns = pattern_sequence(scene, scene.projectors[projector_index]);
+  s.projector_size = patterns.projector_size;
+  s.patterns = patterns.parameters;
   s.bit_depth = camera.sensor.bit_depth;
   s.saturation_cd_per_m2 = saturation_cd_per_m2;
   if (camera.sensor.kind == SensorKind::emva1288)
     s.exposure_time_s = exposure_time_s(camera.sensor, saturation_cd_per_m2);
-  for (int k = 0; k < pictures; ++k)
-    s.pictures.push_back(fmt::format("{}/{}/{:02}.{}", s.camera, s.projector, k, options.format));
+  s.pictures = file_names(s.camera + "/" + s.projector, options.format, pictures);
   if (options.truth) s.truth = fmt::format("truth/{}_{}.exr", s.camera, s.projector);
   return s;
 }
 
-// One view to disk. The pictures are gone before the truth is made.
+// Pictures of less than that are written beside the truth, larger ones before it: memory holds one of the
+// two.
+constexpr std::size_t small_stack_bytes = std::size_t{128} << 20;
+
+std::size_t bytes_of(const CapturedStack& stack) {
+  return std::visit([](const auto& s) { return s.values.size() * sizeof(s.values[0]); }, stack);
+}
+
+// One view to disk.
 CaptureSequence write_view(const Scene& scene, const Rig& rig, int camera, int projector,
                            const std::filesystem::path& root, const CaptureOptions& options,
                            StageTimes& times, const Progress& progress) {
   const double saturation = saturation_cd_per_m2(scene, rig, camera, projector, times);
-  CaptureSequence sequence;
-  {
-    const CapturedStack stack =
-        capture_rows(scene, camera, projector,
-                     rig_rows(scene, rig, camera, projector, samples_of(scene, camera, options.seed)),
-                     saturation, options.seed, times);
-    sequence = describe(scene, camera, projector, saturation, options, count_of(stack));
-    if (progress) {
-      progress(
-          fmt::format("writing {} pictures of \"{}\" by \"{}\", exposed so that {:.4g} cd/m² fill the scale",
-                      sequence.pictures.size(), sequence.projector, sequence.camera, saturation));
-    }
-    times.measure("write", [&] {
-      std::filesystem::create_directories(root / sequence.camera / sequence.projector);
-      write_pictures(root, stack, sequence.pictures);
-    });
+  CapturedStack stack =
+      capture_rows(scene, camera, projector,
+                   rig_rows(scene, rig, camera, projector, samples_of(scene, camera, options.seed)),
+                   saturation, options.seed, times);
+  const CaptureSequence sequence = describe(scene, camera, projector, saturation, options, count_of(stack));
+  if (progress) {
+    progress(
+        fmt::format("writing {} pictures of \"{}\" by \"{}\", exposed so that {:.4g} cd/m² fill the scale",
+                    count_of(stack), sequence.projector, sequence.camera, saturation));
   }
-  if (options.truth)
-    times.measure("truth", [&] { write_truth(root / sequence.truth, scene, rig, camera, projector); });
+  std::filesystem::create_directories(root / sequence.camera / sequence.projector);
+  const auto write = [&](bool pictures, bool truth) {
+    parallel_for(2, [&](std::size_t part) {
+      if (part == 0 && pictures) write_pictures(root, stack, sequence.pictures);
+      if (part == 1 && truth) write_truth(root / sequence.truth, scene, rig, camera, projector);
+    });
+  };
+  times.measure("write", [&] {
+    if (bytes_of(stack) <= small_stack_bytes) return write(true, options.truth);
+    write(true, false);
+    stack = {};
+    write(false, options.truth);
+  });
   return sequence;
 }
 
@@ -89,9 +120,7 @@ std::vector<std::string> write_capture(const SceneSpec& spec, const Scene& scene
                                        const std::filesystem::path& folder,
                                        const std::filesystem::path& target, const CaptureOptions& options,
                                        StageTimes& times, const Progress& progress) {
-  if (options.format != "png" && options.format != "tif" && options.format != "pgm") {
-    throw InputError(fmt::format("--format: found \"{}\", expected png, tif or pgm", options.format));
-  }
+  check_format(options.format, scene);
   PendingFolder pending(target);
   const std::filesystem::path root = pending.path();
   const Rig rig = make_rig(scene, times);

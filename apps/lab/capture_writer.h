@@ -10,7 +10,7 @@ namespace laterna {
 
 struct CaptureOptions {
   std::uint64_t seed = 1;
-  std::string format = "png";  ///< png, tif or pgm
+  std::string format = "png";  ///< png, tif, pgm, exr or tif-pages; see sim/capture_folder.h
   bool truth = true;           ///< per camera pixel, as multi-layer EXR in single precision
 };
 

@@ -1,7 +1,7 @@
 #include "apps/lab/explain.h"
 
-#include "calib/decode_gray.h"
-#include "render/effects/scaler.h"
+#include "calib/decode.h"
+#include "render/effects/apply_effects.h"
 #include "sim/effect_checks.h"
 #include "sim/error.h"
 #include "sim/scene_build.h"
@@ -25,6 +25,7 @@ struct Captured {
   std::vector<CapturedStack> stacks;  // one per view
   std::vector<DecodedMap> maps;
   std::vector<double> saturations;
+  std::vector<int> projectors;
   double entries_per_pixel = 0, seconds = 0;
 };
 
@@ -38,8 +39,9 @@ ImageRows counted(const ImageRows& image, std::atomic<std::uint64_t>& entries) {
           image.region_px};
 }
 
-// At the given exposures, or, where there are none, at those that suit the scene.
-Captured capture_all(const Scene& scene, std::uint64_t seed, const std::vector<double>& saturations) {
+// Traces and captures every view once, at the given exposures or, where there are none, at those that suit
+// the scene.
+Captured capture_once(const Scene& scene, std::uint64_t seed, const std::vector<double>& saturations) {
   StageTimes times;
   Captured captured;
   Traced traced = trace(scene, times);
@@ -49,17 +51,32 @@ Captured capture_all(const Scene& scene, std::uint64_t seed, const std::vector<d
     View& view = traced.views[i];
     if (!saturations.empty()) view.saturation_cd_per_m2 = saturations[i];
     captured.saturations.push_back(view.saturation_cd_per_m2);
+    captured.projectors.push_back(view.projector);
     const ImageRows rows = view_rows(scene, traced, view, seed);
     captured.stacks.push_back(capture_rows(scene, view.camera, view.projector, counted(rows, entries),
                                            view.saturation_cd_per_m2, seed, times));
-    if (!scene.effects.slide) {
-      captured.maps.push_back(decode_gray(captured.stacks.back(),
-                                          input_size(scene.effects, scene.projectors[view.projector]), {}));
-    }
     pixels += double(rows.size.x) * rows.size.y;
   }
-  captured.entries_per_pixel = double(entries.load()) / pixels;
+  captured.entries_per_pixel = pixels > 0 ? double(entries) / pixels : 0;
   captured.seconds = times.total();
+  return captured;
+}
+
+// The same with the seconds of the median of several runs, and decoded.
+Captured capture_all(const Scene& scene, std::uint64_t seed, const std::vector<double>& saturations) {
+  constexpr int runs = 3;
+  Captured captured;
+  std::vector<double> seconds;
+  for (int run = 0; run < runs; ++run) {
+    captured = capture_once(scene, seed, saturations);
+    seconds.push_back(captured.seconds);
+  }
+  std::nth_element(seconds.begin(), seconds.begin() + runs / 2, seconds.end());
+  captured.seconds = seconds[runs / 2];
+  for (std::size_t i = 0; i < captured.stacks.size() && !comes_from_files(scene.patterns.kind); ++i) {
+    const Projector& projector = scene.projectors[captured.projectors[i]];
+    captured.maps.push_back(decode(captured.stacks[i], pattern_sequence(scene, projector)));
+  }
   return captured;
 }
 

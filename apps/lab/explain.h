@@ -15,8 +15,9 @@ namespace laterna {
 struct EffectCost {
   std::string name, stage;
   bool on = false;               ///< in the scene
-  double entries_per_pixel = 0;  ///< of the rows of all views, with the effect on
-  double seconds = 0;  ///< of tracing and capture, more with it than without; 0 where it is within noise
+  double entries_per_pixel = 0;  ///< of the rows, over all camera pixels, with the effect on
+  double seconds = 0;  ///< of tracing and capture, more with it than without, each the median of three runs;
+                       ///< 0 where it is within noise
   double max_dn = 0, rms_dn = 0;        ///< over all pixels of all pictures
   double max_uv_px = 0, rms_uv_px = 0;  ///< |Δ(u, v)| of the decoded map, where both decode
 };

@@ -67,7 +67,8 @@ Image<float> picture_or_white(const std::filesystem::path& file, const glm::ivec
 
 PatternStack shown_by_projector(const Selected& selected, const std::filesystem::path& file) {
   const glm::ivec2 size = input_size(selected.scene.effects, selected.source());
-  PatternStack patterns = make_slide_stack({picture_or_white(file, size, "projector"), true}, size);
+  const Slide slide{picture_or_white(file, size, "projector"), true};
+  PatternStack patterns = make_slide_stack({&slide, 1}, size);
   apply_effects(patterns, selected.scene, selected.source());
   return patterns;
 }
@@ -113,7 +114,7 @@ Image<float> dual_cd_per_m2(const Selected& selected, const RenderOptions& optio
 }
 
 BakedTexture bake(const Selected& selected, const RenderOptions& options) {
-  const Scene& scene = selected.scene;
+  const Scene& scene = selected.rig.as_seen(selected.scene);
   int mesh = 0;
   while (options.mesh.empty() && mesh + 1 < int(scene.objects.size()) &&
          scene.objects[mesh].mesh.texture_coordinates.empty())

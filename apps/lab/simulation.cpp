@@ -2,6 +2,7 @@
 
 #include "render/automatic_exposure.h"
 #include "render/effects/apply_effects.h"
+#include "render/effects/displacement.h"
 #include "render/exposure.h"
 #include "render/trace_rows.h"
 #include "sim/error.h"
@@ -48,7 +49,10 @@ ImageRows direct_view_rows(const Scene& scene, const Traced& traced, const View&
 Rig make_rig(const Scene& scene, StageTimes& times) {
   if (scene.projectors.empty()) throw InputError("the scene has no [[projector]], expected at least one");
   if (scene.cameras.empty()) throw InputError("the scene has no [[camera]], expected at least one");
-  Rig rig{times.measure("build", [&] { return RayScene(scene); }), {}};
+  std::optional<Scene> moved;
+  times.measure("build", [&] { displaced(scene, moved); });
+  Rig rig{times.measure("build", [&] { return RayScene(moved ? *moved : scene); }), {}, {}};
+  if (moved) rig.displaced = std::make_unique<const Scene>(std::move(*moved));
   times.measure("surface", [&] {
     for (const Camera& camera : scene.cameras) rig.directions.emplace_back(camera.device);
   });
@@ -56,12 +60,12 @@ Rig make_rig(const Scene& scene, StageTimes& times) {
 }
 
 StripTracer::StripTracer(const Scene& scene, const Rig& rig, int camera, int projector)
-    : scene_(scene),
+    : scene_(rig.as_seen(scene)),
       rig_(rig),
       camera_(camera),
       projector_(projector),
-      eye_(make_camera_view(rig.rays, scene, scene.cameras[camera])),
-      source_(make_projector_view(rig.rays, scene, scene.projectors[projector])) {}
+      eye_(make_camera_view(rig.rays, scene_, scene_.cameras[camera])),
+      source_(make_projector_view(rig.rays, scene_, scene_.projectors[projector])) {}
 
 int StripTracer::count() const { return (rig_.directions[camera_].height() + tile_edge - 1) / tile_edge; }
 
@@ -81,21 +85,40 @@ ImageRows rig_rows(const Scene& scene, const Rig& rig, int camera, int projector
                    const PixelSamples& samples) {
   const CameraRays& directions = rig.directions[camera];
   return {{directions.width(), directions.height()},
-          trace_rows(rig.rays, scene, camera, directions, projector, samples)};
+          trace_rows(rig.rays, rig.as_seen(scene), camera, directions, projector, samples),
+          region_px_of(scene, samples)};
 }
+
+namespace {
+
+// Rows by which a view is exposed: those of pixel centres, or, where surfaces light each other, which costs
+// many rays, those of every sixteenth tile along diagonals.
+ImageRows exposure_rows(const Scene& scene, const Rig& rig, int camera, int projector) {
+  const ImageRows all = rig_rows(scene, rig, camera, projector, {});
+  if (!scene.effects.inter_reflection) return all;
+  const RowSource some = [rows = all.rows](LightRows& out) {
+    const PixelRegion& r = out.region;
+    if ((r.x + 3 * r.y) / tile_edge % 16 == 0) return rows(out);
+    out.begin.assign(r.size() + 1, 0);
+    out.entries.clear();
+    out.ambient_cd_per_m2.assign(r.size(), 0);
+  };
+  return {all.size, some, glm::ivec2(tile_edge)};
+}
+
+}  // namespace
 
 double saturation_cd_per_m2(const Scene& scene, const Rig& rig, int camera, int projector,
                             StageTimes& times) {
   const std::optional<double> fixed = fixed_saturation_cd_per_m2(scene.cameras[camera].sensor);
   if (fixed) return *fixed;
-  const CameraRays& directions = rig.directions[camera];
-  const ImageRows direct{{directions.width(), directions.height()},
-                         trace_rows(rig.rays, scene, camera, directions, projector)};
-  return times.measure("exposure", [&] { return automatic_saturation_cd_per_m2({&direct, 1}); });
+  const ImageRows rows = exposure_rows(scene, rig, camera, projector);
+  return times.measure("exposure", [&] { return automatic_saturation_cd_per_m2({&rows, 1}); });
 }
 
-Traced trace(const Scene& scene, StageTimes& times, const Progress& progress) {
-  Traced traced{make_rig(scene, times), {}, {}, {}};
+Traced trace(const Scene& given, StageTimes& times, const Progress& progress) {
+  Traced traced{make_rig(given, times), {}, {}, {}};
+  const Scene& scene = traced.as_seen(given);
   const RayScene& rays = traced.rays;
   for (int c = 0; c < int(scene.cameras.size()); ++c) {
     const Camera& camera = scene.cameras[c];
@@ -118,11 +141,11 @@ Traced trace(const Scene& scene, StageTimes& times, const Progress& progress) {
   }
   for (View& view : traced.views) {
     const std::optional<double> fixed = fixed_saturation_cd_per_m2(scene.cameras[view.camera].sensor);
-    const ImageRows centres = rows_are_direct(scene, view.camera)
-                                  ? direct_view_rows(scene, traced, view)
-                                  : rig_rows(scene, traced, view.camera, view.projector, {});
     view.saturation_cd_per_m2 = fixed ? *fixed : times.measure("exposure", [&] {
-      return automatic_saturation_cd_per_m2({&centres, 1});
+      const ImageRows rows = rows_are_direct(scene, view.camera)
+                                 ? direct_view_rows(scene, traced, view)
+                                 : exposure_rows(scene, traced, view.camera, view.projector);
+      return automatic_saturation_cd_per_m2({&rows, 1});
     });
   }
   return traced;
@@ -141,8 +164,8 @@ CapturedStack capture_rows(const Scene& scene, int camera, int projector, const 
   const auto play = [&](const Show& show) {
     return times.measure("capture", [&] { return play_stack(rows, source.lookup, show, exposure); });
   };
-  if (source.lookup == Lookup::nearest && !edits_patterns(scene.effects)) {
-    const GraySequence sequence{source.device.intrinsics.size};
+  const PatternSequence sequence = pattern_sequence(scene, source);
+  if (source.lookup == Lookup::nearest && !edits_patterns(scene.effects) && is_binary(sequence)) {
     const BinaryPatternStack bits =
         times.measure("patterns", [&] { return make_binary_pattern_stack(sequence); });
     return play(bits);

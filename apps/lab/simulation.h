@@ -12,6 +12,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -47,6 +48,10 @@ struct View {
 struct Rig {
   RayScene rays;
   std::vector<CameraRays> directions;  ///< one per camera
+  std::unique_ptr<const Scene>
+      displaced;  ///< the scene that the rays meet where displacement moves its meshes
+
+  const Scene& as_seen(const Scene& given) const { return displaced ? *displaced : given; }
 };
 
 /// Throws InputError where the scene has no projector or no camera.
@@ -89,7 +94,8 @@ class StripTracer {
 ImageRows rig_rows(const Scene& scene, const Rig& rig, int camera, int projector,
                    const PixelSamples& samples);
 
-/// The luminance that fills the scale: the sensor's own, or automatic, from the light at pixel centres.
+/// The luminance that fills the scale: the sensor's own, or automatic, from the light at pixel centres (at
+/// every sixteenth tile of them with inter-reflection).
 double saturation_cd_per_m2(const Scene& scene, const Rig& rig, int camera, int projector, StageTimes& times);
 
 /// The rows of one view, with every effect of the scene: from the maps where a pixel's row is the direct

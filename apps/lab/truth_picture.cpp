@@ -31,8 +31,9 @@ void write_strip(const Scene& scene, const Rig& rig, const SurfaceMap& surface, 
 
 }  // namespace
 
-void write_truth(const std::filesystem::path& path, const Scene& scene, const Rig& rig, int camera,
+void write_truth(const std::filesystem::path& path, const Scene& given, const Rig& rig, int camera,
                  int projector) {
+  const Scene& scene = rig.as_seen(given);
   const CameraRays& directions = rig.directions[camera];
   const int width = directions.width(), height = directions.height();
   const StripTracer tracer(scene, rig, camera, projector);

@@ -26,21 +26,32 @@ double srgb_of_light(double light) {
   return light <= 0.04045 / 12.92 ? light * 12.92 : 1.055 * std::pow(light, 1 / 2.4) - 0.055;
 }
 
-}  // namespace
-
-PatternStack make_slide_stack(const Slide& slide, const glm::ivec2& size) {
+void check(const Slide& slide, const glm::ivec2& size, bool is_linear) {
   const Image<float>& picture = slide.light;
   if (picture.width != size.x || picture.height != size.y) {
     throw InputError(fmt::format(
         "[patterns]: the slide has {}×{} pixels, expected the projector's {}×{} (or input_size of a scaler)",
         picture.width, picture.height, size.x, size.y));
   }
-  PatternStack stack{size.x, size.y, 1, {}};
-  if (!slide.is_linear) stack.light_of_value = srgb_light();
-  stack.values.reserve(picture.values.size());
-  for (const float light : picture.values) {
-    const double value = slide.is_linear ? double(light) : srgb_of_light(light);
-    stack.values.push_back(std::uint8_t(std::clamp(std::lround(255 * value), 0L, 255L)));
+  if (slide.is_linear != is_linear) throw InputError("[patterns]: slides of both encodings, expected one");
+}
+
+}  // namespace
+
+PatternStack make_slide_stack(std::span<const Slide> slides, const glm::ivec2& size) {
+  if (slides.empty()) throw InputError("[patterns]: no pictures, expected at least one");
+  const bool is_linear = slides[0].is_linear;
+  const std::size_t count = slides.size();
+  PatternStack stack{size.x, size.y, int(count), {}};
+  if (!is_linear) stack.light_of_value = srgb_light();
+  stack.values.resize(count * size.x * size.y);
+  for (std::size_t k = 0; k < count; ++k) {
+    check(slides[k], size, is_linear);
+    const std::vector<float>& light = slides[k].light.values;
+    for (std::size_t i = 0; i < light.size(); ++i) {
+      const double value = is_linear ? double(light[i]) : srgb_of_light(light[i]);
+      stack.values[i * count + k] = std::uint8_t(std::clamp(std::lround(255 * value), 0L, 255L));
+    }
   }
   return stack;
 }

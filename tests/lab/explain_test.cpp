@@ -35,6 +35,22 @@ TEST(Explain, TellsWhatEachEffectChanges) {
   EXPECT_THAT(explain_text(costs), ::testing::HasSubstr("solid_albedo"));
 }
 
+TEST(Explain, CountsWhatBouncesAdd) {
+  const SceneSpec spec = parse_scene(
+      "[[mesh]]\nshape = \"v_groove\"\nshape_size = [2, 2, 1]\n"
+      "[[projector]]\nsize = [32, 24]\nthrow_ratio = 1\nposition = [0, 0, 2]\nlook_at = [0, 0, 0]\n"
+      "up = [0, 1, 0]\n"
+      "[[camera]]\nsize = [40, 30]\nfov_x_deg = 40\nposition = [0, 0, 2]\nlook_at = [0, 0, 0]\nup = [0, 1, "
+      "0]\n[inter_reflection]\nbounces = 2\npaths = 8\n",
+      "s");
+  for (const EffectCost& c : explain_effects(spec, build_scene(spec, {}), {}, 1)) {
+    if (c.name != std::string("inter_reflection")) continue;
+    EXPECT_GT(c.entries_per_pixel, 1.5);  // 1 + 8·(F + ...), F about 1/3 on the whole
+    EXPECT_LT(c.entries_per_pixel, 1 + 2 * 8);
+    EXPECT_GT(c.rms_dn, 1);
+  }
+}
+
 TEST(Explain, PricesBlurAndLenses) {
   const SceneSpec spec = parse_scene(
       "[[mesh]]\nshape = \"plane\"\nshape_size = [4, 4, 1]\n"
