@@ -13,6 +13,7 @@ struct Effects {
   bool gloss = false, normal_map = false, solid_albedo = false;
   bool response = false, black_level = false;
   bool antialiasing = false;
+  bool colour = false, timing = false, camera_glare = false;
   bool operator==(const Effects&) const = default;
 };
 
@@ -53,6 +54,12 @@ inline constexpr auto all_effects = std::to_array<EffectSwitch>({
      &Effects::response},
     {"black_level", "pattern", "Needs `black_level` of a [[projector]].", &Effects::black_level},
     {"antialiasing", "rays", "Needs `samples_per_pixel` above 1 of a [[camera]].", &Effects::antialiasing},
+    {"colour", "weight",
+     "Projectors have a red, a green and a blue primary. Needs a coloured slide, `colour` of [patterns], "
+     "[[colour]], or a `colour_filter` of a [[camera]].",
+     &Effects::colour},
+    {"timing", "replay", "Needs [timing].", &Effects::timing},
+    {"camera_glare", "replay", "Needs `veiling_glare` of a [[camera]].", &Effects::camera_glare},
 });
 
 /// Whether the panel shows anything but the pattern sequence as it stands.

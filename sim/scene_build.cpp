@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <map>
@@ -148,6 +149,40 @@ Object build_object(const MeshSpec& spec, const std::filesystem::path& folder, M
   return object;
 }
 
+bool is_grey(const glm::vec3& rgb) { return rgb.x == rgb.y && rgb.y == rgb.z; }
+
+std::shared_ptr<const Slide> build_slide(const PatternsSpec& patterns, const std::filesystem::path& folder) {
+  const std::filesystem::path path = folder / patterns.file;
+  Slide slide{read_fractions(path, patterns.encoding), patterns.encoding == Encoding::linear};
+  const Image<glm::vec3> rgb = read_rgb_float(path, patterns.encoding);
+  if (std::all_of(rgb.values.begin(), rgb.values.end(), is_grey))
+    return std::make_shared<const Slide>(std::move(slide));
+  slide.primaries.assign(3, Image<float>(rgb.width, rgb.height));
+  for (std::size_t i = 0; i < rgb.values.size(); ++i) {
+    for (int primary = 0; primary < 3; ++primary) {
+      const float value = rgb.values[i][primary];
+      if (!(value >= 0 && value <= 1))
+        throw InputError(
+            fmt::format("{}: a channel of a pixel is {}, expected 0 to 1", path.string(), value));
+      slide.primaries[primary].values[i] = value;
+    }
+  }
+  return std::make_shared<const Slide>(std::move(slide));
+}
+
+template <class Spec>
+int index_of(const std::vector<Spec>& devices, const std::string& name) {
+  return int(
+      std::find_if(devices.begin(), devices.end(), [&](const Spec& d) { return d.device.name == name; }) -
+      devices.begin());
+}
+
+ColourMixing build_mixing(const ColourSpec& spec, const SceneSpec& named) {
+  ColourMixing mixing{index_of(named.projectors, spec.projector), index_of(named.cameras, spec.camera), {}};
+  for (int i = 0; i < 9; ++i) mixing.channels[i / 3][i % 3] = spec.mixing[i];
+  return mixing;
+}
+
 template <class Spec>
 void name_devices(std::vector<Spec>& devices, const char* kind) {
   for (std::size_t i = 0; i < devices.size(); ++i) {
@@ -201,6 +236,13 @@ void check(const CameraSpec& camera) {
   about(heading("camera", camera.device.name), [&] { check(camera.vignetting); });
 }
 
+void check(const ColourSpec& colour) {
+  if (colour.projector.empty() || colour.camera.empty())
+    throw InputError("[[colour]]: the key projector or camera is missing, expected the names of both");
+  if (colour.mixing.size() != 9)
+    throw InputError(fmt::format("[[colour]]: mixing has {} numbers, expected 9", colour.mixing.size()));
+}
+
 void check(const SceneSpec& scene) {
   if (scene.meshes.empty()) throw InputError("there is no [[mesh]], expected at least one");
   check_effects(scene);
@@ -215,6 +257,7 @@ void check(const SceneSpec& scene) {
   };
   for (const ProjectorSpec& projector : named.projectors) add("projector", projector.device.name);
   for (const CameraSpec& camera : named.cameras) add("camera", camera.device.name);
+  check_references(named);
 }
 
 SceneSpec with_names(SceneSpec spec) {
@@ -233,7 +276,10 @@ Scene build_scene(const SceneSpec& spec, const std::filesystem::path& folder) {
               .ambient_lx = spec.ambient_lx,
               .patterns = spec.patterns.kind,
               .effects = spec.effects,
-              .slide = {}};
+              .slide = {},
+              .pattern_colour = spec.patterns.colour,
+              .mixings = {},
+              .timing = spec.timing};
   const SceneSpec named = with_names(spec);
   Maps maps;
   for (const MeshSpec& mesh : named.meshes) {
@@ -252,14 +298,11 @@ Scene build_scene(const SceneSpec& spec, const std::filesystem::path& folder) {
     check(c);
     scene.cameras.push_back({device_of(c.device, folder, what), c.sensor, c.vignetting,
                              about(what, [&] { return vignetting_map(c.vignetting, folder); }),
-                             c.samples_per_pixel});
+                             c.samples_per_pixel, c.colour_filter, c.veiling_glare});
   }
-  if (spec.effects.slide) {
-    scene.slide = std::make_shared<const Slide>(
-        Slide{about("[patterns]",
-                    [&] { return read_fractions(folder / spec.patterns.file, spec.patterns.encoding); }),
-              spec.patterns.encoding == Encoding::linear});
-  }
+  if (spec.effects.slide)
+    scene.slide = about("[patterns]", [&] { return build_slide(spec.patterns, folder); });
+  for (const ColourSpec& c : named.colours) scene.mixings.push_back(build_mixing(c, named));
   return scene;
 }
 

@@ -2,6 +2,9 @@
 
 #include "render/automatic_exposure.h"
 #include "render/effects/apply_effects.h"
+#include "render/effects/camera_show.h"
+#include "render/effects/colour.h"
+#include "render/effects/rig_move.h"
 #include "render/exposure.h"
 #include "render/trace_rows.h"
 #include "sim/error.h"
@@ -73,7 +76,8 @@ Traced trace(const Scene& scene, StageTimes& times, const Progress& progress) {
   }
   for (View& view : traced.views) {
     const std::optional<double> fixed = fixed_saturation_cd_per_m2(scene.cameras[view.camera].sensor);
-    const ImageRows direct = direct_view_rows(scene, traced, view);
+    ImageRows direct = direct_view_rows(scene, traced, view);
+    direct.rows = apply_colour(direct.rows, scene, view.camera, view.projector, false);
     view.saturation_cd_per_m2 = fixed ? *fixed : times.measure("exposure", [&] {
       return automatic_saturation_cd_per_m2({&direct, 1});
     });
@@ -94,23 +98,35 @@ CapturedStack capture_rows(const Scene& scene, int camera, int projector, const 
   const Projector& source = scene.projectors[projector];
   const Exposure exposure = make_exposure(scene.cameras[camera].sensor, saturation_cd_per_m2,
                                           {seed, std::uint32_t(camera), std::uint32_t(projector)});
-  const auto play = [&](const Show& show) {
-    return times.measure("capture", [&] { return play_stack(rows, source.lookup, show, exposure); });
-  };
-  if (source.lookup == Lookup::nearest && !edits_patterns(scene.effects)) {
-    const GraySequence sequence{source.device.intrinsics.size};
-    const BinaryPatternStack bits =
-        times.measure("patterns", [&] { return make_binary_pattern_stack(sequence); });
-    return play(bits);
-  }
-  const PatternStack values = times.measure("patterns", [&] { return make_patterns(scene, source); });
-  return play(values);
+  const CameraShow played =
+      times.measure("patterns", [&] { return make_camera_show(scene, camera, projector, rows); });
+  return times.measure("capture",
+                       [&] { return play_stack(played.rows, source.lookup, played.show(), exposure); });
 }
+
+namespace {
+
+// The view's pictures after the rig has moved, at the same exposure.
+CapturedStack capture_moved(const Scene& scene, const View& before, std::uint64_t seed, StageTimes& times) {
+  const Scene moved = after_move(scene);
+  Traced traced = trace(moved, times);
+  for (View& view : traced.views) {
+    if (view.camera != before.camera || view.projector != before.projector) continue;
+    view.saturation_cd_per_m2 = before.saturation_cd_per_m2;
+    return capture_view(moved, traced, view, seed, times);
+  }
+  throw std::logic_error("the moved scene has the views of the scene");
+}
+
+}  // namespace
 
 CapturedStack capture_view(const Scene& scene, const Traced& traced, const View& view, std::uint64_t seed,
                            StageTimes& times) {
-  return capture_rows(scene, view.camera, view.projector, view_rows(scene, traced, view, seed),
-                      view.saturation_cd_per_m2, seed, times);
+  CapturedStack stack = capture_rows(scene, view.camera, view.projector, view_rows(scene, traced, view, seed),
+                                     view.saturation_cd_per_m2, seed, times);
+  if (moves(scene, view.camera, view.projector))
+    splice(stack, capture_moved(scene, view, seed, times), scene.timing.moved.from_picture);
+  return stack;
 }
 
 Overlap overlap(const Scene& scene, const Traced& traced, const View& view) {

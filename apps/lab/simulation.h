@@ -65,7 +65,8 @@ ImageRows view_rows(const Scene& scene, const Traced& traced, const View& view, 
 CapturedStack capture_view(const Scene& scene, const Traced& traced, const View& view, std::uint64_t seed,
                            StageTimes& times);
 
-/// Pictures of rows at hand. `seed` draws the noise.
+/// Pictures of rows at hand, those of white light, with colour, camera glare and timing. `seed` draws the
+/// noise.
 CapturedStack capture_rows(const Scene& scene, int camera, int projector, const ImageRows& rows,
                            double saturation_cd_per_m2, std::uint64_t seed, StageTimes& times);
 

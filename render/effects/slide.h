@@ -9,7 +9,10 @@
 
 namespace laterna {
 
-/// A stack of one picture. Throws InputError where the slide is not of `size`.
+/// A stack of one picture, grey. Throws InputError where the slide is not of `size`.
 PatternStack make_slide_stack(const Slide& slide, const glm::ivec2& size);
+
+/// Its red, green and blue, for a slide that has them.
+std::vector<PatternStack> make_slide_primaries(const Slide& slide, const glm::ivec2& size);
 
 }  // namespace laterna
