@@ -1,6 +1,6 @@
 #include "calib/projection_rows.h"
 
-#include "sim/instruction_sets.h"
+#include "calib/row_kernels.h"
 #include "sim/parallel.h"
 
 #include <algorithm>
@@ -11,15 +11,10 @@ namespace laterna {
 
 namespace {
 
-constexpr std::size_t group = 128, chunk = 4096;
+constexpr std::size_t group = group_points, chunk = 4096;
 
-// R·x, t and the pinhole in plain numbers, so that loops over them vectorise.
-struct Pinhole {
-  double fx, fy, cx, cy, r[9], t[3];
-};
-
-Pinhole pinhole_of(const ProjectorState& s) {
-  Pinhole p{s.parameters[0], s.parameters[1], s.parameters[2], s.parameters[3], {}, {}};
+PlainPinhole pinhole_of(const ProjectorState& s) {
+  PlainPinhole p{s.parameters[0], s.parameters[1], s.parameters[2], s.parameters[3], {}, {}};
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) p.r[3 * i + j] = s.device_from_points.rotation[j][i];
     p.t[i] = s.device_from_points.translation[i];
@@ -27,49 +22,16 @@ Pinhole pinhole_of(const ProjectorState& s) {
   return p;
 }
 
-// What a group of points gives on the way to its rows: R·x, 1/z, x/z, y/z and the residuals.
-struct GroupTerms {
-  double rx[group], ry[group], rz[group], iz[group], a[group], b[group], du[group], dv[group], weight[group];
-};
-
-// False where a point lies behind.
-LATERNA_CLONES bool pinhole_terms(const PointTable& points, const Pinhole& p, std::size_t begin,
-                                  std::size_t count, GroupTerms& g) {
-  const double *x = &points.x[begin], *y = &points.y[begin], *z = &points.z[begin], *u = &points.u[begin],
-               *v = &points.v[begin];
-  for (std::size_t i = 0; i < count; ++i) {
-    g.rx[i] = p.r[0] * x[i] + p.r[1] * y[i] + p.r[2] * z[i];
-    g.ry[i] = p.r[3] * x[i] + p.r[4] * y[i] + p.r[5] * z[i];
-    g.rz[i] = p.r[6] * x[i] + p.r[7] * y[i] + p.r[8] * z[i];
-    g.iz[i] = 1 / (g.rz[i] + p.t[2]);
-    g.a[i] = (g.rx[i] + p.t[0]) * g.iz[i];
-    g.b[i] = (g.ry[i] + p.t[1]) * g.iz[i];
-    g.du[i] = p.fx * g.a[i] + p.cx - u[i];
-    g.dv[i] = p.fy * g.b[i] + p.cy - v[i];
-  }
-  bool all = true;
-  for (std::size_t i = 0; i < count; ++i) all = all && g.iz[i] > 0 && g.iz[i] < 1e300;
-  return all;
+bool pinhole_terms(const PointTable& points, const PlainPinhole& p, std::size_t begin, std::size_t count,
+                   GroupTerms& g) {
+  return pinhole_terms(p, &points.x[begin], &points.y[begin], &points.z[begin], &points.u[begin],
+                       &points.v[begin], count, g);
 }
 
-// d(u)/dx_device = (gx, 0, -gx·a), d(v)/dx_device = (0, gy, -gy·b); a left rotation moves x_device by w ×
-// R·x.
-LATERNA_CLONES void pinhole_columns(const Pinhole& p, std::size_t count, const GroupTerms& g,
-                                    const RowBlock& block) {
-  double* c[2][11];
-  for (int j = 0; j < 11; ++j) c[0][j] = block.column(j, 0), c[1][j] = block.column(j, 1);
-  for (std::size_t i = 0; i < count; ++i) {
-    const double w = g.weight[i], gx = w * p.fx * g.iz[i], gy = w * p.fy * g.iz[i];
-    const double ga = -gx * g.a[i], gb = -gy * g.b[i];
-    c[0][0][i] = w * g.a[i], c[1][1][i] = w * g.b[i];
-    c[0][2][i] = w, c[1][3][i] = w;
-    c[0][4][i] = g.ry[i] * ga, c[1][4][i] = g.ry[i] * gb - g.rz[i] * gy;
-    c[0][5][i] = g.rz[i] * gx - g.rx[i] * ga, c[1][5][i] = -g.rx[i] * gb;
-    c[0][6][i] = -g.ry[i] * gx, c[1][6][i] = g.rx[i] * gy;
-    c[0][7][i] = gx, c[1][8][i] = gy;
-    c[0][9][i] = ga, c[1][9][i] = gb;
-    c[0][10][i] = w * g.du[i], c[1][10][i] = w * g.dv[i];
-  }
+void pinhole_columns(const PlainPinhole& p, std::size_t count, const GroupTerms& g, const RowBlock& block) {
+  double* columns[22];
+  for (int j = 0; j < 11; ++j) columns[2 * j] = block.column(j, 0), columns[2 * j + 1] = block.column(j, 1);
+  pinhole_columns(p, count, g, columns);
 }
 
 void weigh(const PointTable& points, const RobustLoss& loss, std::size_t begin, std::size_t count,
@@ -196,7 +158,7 @@ bool project_with_rows(const LensGradient& lens, const ProjectorState& state, co
 bool fill_rows(const PointTable& points, const LensGradient& lens, const ProjectorState& state,
                const RobustLoss& loss, std::size_t begin, std::size_t end, const RowBlock& block) {
   if (lens.parameter_count() != 4) return fill_rows_with_lens(points, lens, state, loss, begin, end, block);
-  const Pinhole pinhole = pinhole_of(state);
+  const PlainPinhole pinhole = pinhole_of(state);
   GroupTerms g;
   for (std::size_t i = begin; i < end; i += group) {
     const std::size_t count = std::min(group, end - i);

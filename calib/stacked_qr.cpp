@@ -1,6 +1,6 @@
 #include "calib/stacked_qr.h"
 
-#include "sim/instruction_sets.h"
+#include "calib/row_kernels.h"
 #include "sim/parallel.h"
 
 #include <algorithm>
@@ -12,34 +12,6 @@ namespace {
 
 constexpr std::size_t block_items = 128, chunk_items = 4096;
 constexpr std::size_t lanes = 8;
-
-using Lanes = double __attribute__((vector_size(lanes * sizeof(double)), aligned(8), may_alias));
-
-// dots[j] = Σ v·columns[j] over `count` rows, a multiple of 8, for four columns at once.
-LATERNA_CLONES void dot4(const double* v, double* const* columns, std::size_t count, double* dots) {
-  const double *a = columns[0], *b = columns[1], *c = columns[2], *d = columns[3];
-  Lanes sum[4] = {};
-  for (std::size_t i = 0; i < count; i += lanes) {
-    const Lanes x = *reinterpret_cast<const Lanes*>(v + i);
-    sum[0] += x * *reinterpret_cast<const Lanes*>(a + i);
-    sum[1] += x * *reinterpret_cast<const Lanes*>(b + i);
-    sum[2] += x * *reinterpret_cast<const Lanes*>(c + i);
-    sum[3] += x * *reinterpret_cast<const Lanes*>(d + i);
-  }
-  for (int j = 0; j < 4; ++j) {
-    const Lanes& s = sum[j];
-    dots[j] = ((s[0] + s[4]) + (s[2] + s[6])) + ((s[1] + s[5]) + (s[3] + s[7]));
-  }
-}
-
-// columns[j] -= factors[j]·v.
-LATERNA_CLONES void subtract4(const double* v, double* const* columns, std::size_t count,
-                              const double* factors) {
-  for (std::size_t i = 0; i < count; i += lanes) {
-    const Lanes x = *reinterpret_cast<const Lanes*>(v + i);
-    for (int j = 0; j < 4; ++j) *reinterpret_cast<Lanes*>(columns[j] + i) -= factors[j] * x;
-  }
-}
 
 struct Span {
   std::size_t begin, end;

@@ -15,7 +15,9 @@ struct LightMap {
                                   ///< `lens` or `behind`; NaN there and where nothing is seen
   PixelArray<double> white_lx;    ///< illuminance on the surface for the all-white picture; 0 unless lit
   PixelArray<std::uint8_t> why;   ///< Unlit: lit (0), or the first reason that the point is dark
+  PixelArray<float> footprint_px{};  ///< as LightEntry's; empty where no effect sets it
 
+  float footprint(std::size_t i) const { return footprint_px.values.empty() ? 0 : footprint_px.values[i]; }
   bool lit(std::size_t i) const { return why.values[i] == std::uint8_t(Unlit::lit); }
 };
 

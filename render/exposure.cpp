@@ -1,7 +1,7 @@
 #include "render/exposure.h"
 
+#include "render/exposure_kernels.h"
 #include "sim/error.h"
-#include "sim/instruction_sets.h"
 
 #include <fmt/format.h>
 
@@ -14,12 +14,6 @@ namespace laterna {
 namespace {
 
 constexpr int block = noise_pixels;
-
-/// What the pixels of a block keep from picture to picture.
-struct PixelGains {
-  float response[block];  // 1 + PRNU, not negative
-  float offset_dn[block];
-};
 
 /// The random numbers of a block for four pictures, drawn when they are asked for.
 struct Draws {
@@ -56,69 +50,12 @@ PixelGains pixel_gains(const ElectronModel& model, std::uint32_t first_pixel) {
   return gains;
 }
 
-/// Which kinds of pixels a block has beside those of medium light.
-struct Kinds {
-  bool dim, bright;
-};
-
-/// Whether shot noise may reach the full well.
-inline bool near_full_well(float mean, float deviation, float full_well_e) {
-  return mean + 8 * deviation > full_well_e;
-}
-
-/// Means, and DN before rounding where shot and dark noise are one normal deviate.
-LATERNA_CLONES Kinds expose_medium(const ElectronModel& model, const PixelGains& gains, const float* levels,
-                                   const float* deviates, float* means, float* signal) {
-  const float dark_variance = model.dark_noise_e * model.dark_noise_e;
-  const float dark_e = model.dark_e, gain = model.gain_dn_per_e, full_well_e = model.full_well_e;
-  int dim = 0, bright = 0;
-  for (int i = 0; i < block; ++i) {
-    const float level = levels[i] > 0 ? levels[i] : 0;
-    const float mean = gains.response[i] * level + dark_e, deviation = std::sqrt(mean + dark_variance);
-    means[i] = mean;
-    signal[i] = gain * (mean + deviation * deviates[i]) + gains.offset_dn[i];
-    dim |= int(mean < greatest_poisson_mean);
-    bright |= int(near_full_well(mean, deviation, full_well_e));
-  }
-  return {dim != 0, bright != 0};
-}
-
-/// Replaces those whose charge is a Poisson-distributed count.
-LATERNA_CLONES void expose_dim(const ElectronModel& model, const PixelGains& gains, const float* means,
-                               const float* counts, const float* deviates, float* signal) {
-  const float full_well_e = model.full_well_e, dark_noise_e = model.dark_noise_e, gain = model.gain_dn_per_e;
-  for (int i = 0; i < block; ++i) {
-    const float charge = counts[i] < full_well_e ? counts[i] : full_well_e;
-    const float electrons = charge + dark_noise_e * deviates[i];
-    const float dim = gain * electrons + gains.offset_dn[i];
-    signal[i] = means[i] < greatest_poisson_mean ? dim : signal[i];
-  }
-}
-
-/// Replaces those whose charge may reach the full well.
-LATERNA_CLONES void expose_bright(const ElectronModel& model, const PixelGains& gains, const float* means,
-                                  const float* shot, const float* deviates, float* signal) {
-  const float full_well_e = model.full_well_e, dark_noise_e = model.dark_noise_e, gain = model.gain_dn_per_e;
-  const float dark_variance = dark_noise_e * dark_noise_e;
-  for (int i = 0; i < block; ++i) {
-    const float drawn = means[i] + std::sqrt(means[i]) * shot[i];
-    const float positive = drawn > 0 ? drawn : 0;
-    const float charge = positive < full_well_e ? positive : full_well_e;
-    const float electrons = charge + dark_noise_e * deviates[i];
-    const float bright = gain * electrons + gains.offset_dn[i];
-    const float deviation = std::sqrt(means[i] + dark_variance);
-    const int near =
-        int(near_full_well(means[i], deviation, full_well_e)) & int(means[i] >= greatest_poisson_mean);
-    signal[i] = near != 0 ? bright : signal[i];
-  }
-}
-
 void expose_electrons(const Exposure& exposure, const PixelGains& gains, Draws& draws, int picture,
                       const float* levels, float* signal) {
   const ElectronModel& model = *exposure.electrons;
   float means[block], counts[block];
   const float* deviates = draws.temporal + block * picture;
-  const Kinds kinds = expose_medium(model, gains, levels, deviates, means, signal);
+  const LightKinds kinds = expose_medium(model, gains, levels, deviates, means, signal);
   if (kinds.dim) {
     poisson_counts(means, draws.count_words(picture), counts);
     expose_dim(model, gains, means, counts, deviates, signal);
@@ -132,31 +69,13 @@ void expose_electrons(const Exposure& exposure, const PixelGains& gains, Draws& 
   }
 }
 
-LATERNA_CLONES void add_noise(float sigma, const float* levels, const float* deviates, float* signal) {
-  for (int i = 0; i < block; ++i) signal[i] = levels[i] + sigma * deviates[i];
-}
-
-LATERNA_CLONES void quantise(const float* signal, float full_scale, std::uint8_t* dn) {
-  for (int i = 0; i < block; ++i) {
-    const float above = signal[i] > 0 ? signal[i] : 0;
-    dn[i] = std::uint8_t(int((above < full_scale ? above : full_scale) + 0.5f));
-  }
-}
-
-LATERNA_CLONES void quantise(const float* signal, float full_scale, std::uint16_t* dn) {
-  for (int i = 0; i < block; ++i) {
-    const float above = signal[i] > 0 ? signal[i] : 0;
-    dn[i] = std::uint16_t(int((above < full_scale ? above : full_scale) + 0.5f));
-  }
-}
-
 template <class Number>
 void expose_block(const Exposure& exposure, std::uint32_t first_pixel, int pictures, const float* levels,
                   Number* dn) {
   const auto full_scale = static_cast<float>(exposure.full_scale());
   const auto sigma = static_cast<float>(exposure.noise_sigma_dn);
   if (!exposure.electrons && !(sigma > 0)) {
-    for (int k = 0; k < pictures; ++k) quantise(levels + k * block, full_scale, dn + k * block);
+    quantise(levels, full_scale, pictures * block, dn);
     return;
   }
   const PixelGains gains = exposure.electrons ? pixel_gains(*exposure.electrons, first_pixel) : PixelGains{};
@@ -169,7 +88,7 @@ void expose_block(const Exposure& exposure, std::uint32_t first_pixel, int pictu
         expose_electrons(exposure, gains, draws, k - first, level, signal);
       else
         add_noise(sigma, level, draws.temporal + (k - first) * block, signal);
-      quantise(signal, full_scale, dn + k * block);
+      quantise(signal, full_scale, block, dn + k * block);
     }
   }
 }

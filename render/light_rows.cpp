@@ -37,7 +37,8 @@ void direct_rows(const SurfaceMap& surface, const LightMap& light, std::span<con
       if (light.lit(from)) {
         const double albedo = surface.albedo.values[from];
         rows.entries[count++] = {light.u_px.values[from], light.v_px.values[from],
-                                 luminance_cd_per_m2(albedo, light.white_lx.values[from], 0)};
+                                 luminance_cd_per_m2(albedo, light.white_lx.values[from], 0),
+                                 light.footprint(from)};
       }
     }
   }

@@ -7,15 +7,29 @@
 
 namespace laterna {
 
-/// Antialiasing: each camera pixel is the mean of `count` rays.
+/// Each camera pixel is the mean of `count` rays.
 struct PixelSamples {
   int count = 1;  ///< 1: the pixel's centre, exactly
   std::uint64_t seed = 0;
+  double side_px = 1;  ///< of the square about the pixel's centre over which they are spread; 0: none
 };
 
-/// Where sample `sample` of a camera's pixel lies beside the pixel's centre, in [-0.5, 0.5)². The pixel is
-/// cut into columns × rows = count cells, as near to square as count's divisors allow, and each sample is
-/// uniform in a cell of its own: Philox4x32-10 with counter (x, y, sample/4, camera) under the key `seed`.
+/// What a ray's random point is for: points for different uses are independent.
+enum class SampleUse : std::uint32_t { pixel, aperture, airy };
+
+/// A point of [-0.5, 0.5)² for one ray. The square is cut into columns × rows = count cells, as near to
+/// square as count's divisors allow, and each ray is uniform in a cell of its own: Philox4x32-10 with counter
+/// (x, y, 2¹⁶·use + sample/4, camera) under the key `seed`. Which ray has which cell: in order for
+/// SampleUse::pixel, else by a permutation that is drawn for each pixel and use, so that the mean over rays
+/// is that over all pairs of points (after Kensler, "Correlated multi-jittered sampling", 2013).
+glm::vec2 stratified_square(const PixelSamples& samples, std::uint32_t camera, const glm::ivec2& pixel,
+                            int sample, SampleUse use);
+
+/// The unit disc from [-0.5, 0.5)², areas kept up to the factor 4/π: concentric squares become concentric
+/// circles. After Shirley & Chiu, "A low distortion map between disk and square", 1997.
+glm::vec2 disc_from_square(const glm::vec2& square);
+
+/// Where sample `sample` of a camera's pixel lies beside the pixel's centre: stratified_square times side_px.
 /// (0, 0) where count is 1.
 glm::vec2 sample_offset_px(const PixelSamples& samples, std::uint32_t camera, const glm::ivec2& pixel,
                            int sample);

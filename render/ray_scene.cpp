@@ -1,5 +1,7 @@
 #include "render/ray_scene.h"
 
+#include "sim/instruction_sets.h"
+
 #include <embree3/rtcore.h>
 #include <fmt/format.h>
 
@@ -61,7 +63,7 @@ struct RayScene::Embree {
 };
 
 void RayScene::Embree::open() {
-  device.reset(rtcNewDevice(nullptr));
+  device.reset(rtcNewDevice(embree_configuration().c_str()));
   if (!device) throw std::runtime_error("Embree: no device could be opened");
   rtcSetDeviceErrorFunction(device.get(), remember, &error);
   sixteen_wide = rtcGetDeviceProperty(device.get(), RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED) != 0;

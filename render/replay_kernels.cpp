@@ -1,193 +1,248 @@
-#include "render/replay_kernels.h"
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "render/replay_kernels.cpp"
+#include <hwy/cache_control.h>
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
 
-#include "sim/instruction_sets.h"
+#include "render/replay_kernels.h"
 
 #include <cstring>
 
-#ifdef __SSE2__
-#include <emmintrin.h>
-#endif
-
-#define LATERNA_INLINE inline __attribute__((always_inline))
-
-namespace laterna {
-
+HWY_BEFORE_NAMESPACE();
+namespace laterna::HWY_NAMESPACE {
 namespace {
 
-constexpr int block = block_pixels;
-constexpr int lanes = 8;  // patterns that are summed together
+namespace hn = hwy::HWY_NAMESPACE;
+constexpr std::size_t block = block_pixels;
+using Wide = hn::CappedTag<float, 16>;
+using Four = hn::CappedTag<float, 4>;
+using Single = hn::CappedTag<float, 1>;
 
-using Bytes = std::uint8_t __attribute__((vector_size(8)));
-using Words = std::uint16_t __attribute__((vector_size(16)));
-using Ints = std::int32_t __attribute__((vector_size(32)));
-using Floats = float __attribute__((vector_size(32)));
-
-LATERNA_INLINE void load(const std::uint8_t* from, Floats& to) {
-  Bytes bytes;
-  std::memcpy(&bytes, from, sizeof bytes);
-  to = __builtin_convertvector(__builtin_convertvector(__builtin_convertvector(bytes, Words), Ints), Floats);
+template <class D>
+HWY_INLINE hn::Vec<D> floats(D d, const std::uint8_t* from) {
+  const hn::Rebind<std::uint8_t, D> bytes;
+  const hn::Rebind<std::int32_t, D> ints;
+  return hn::ConvertTo(d, hn::PromoteTo(ints, hn::LoadU(bytes, from)));
 }
 
-// What one tap adds to the patterns k to k + 7, and to pattern k alone.
-LATERNA_INLINE void add(const BilinearTap& t, int k, Floats& total) {
-  Floats a, c, d, e;
-  load(t.a + k, a), load(t.c + k, c), load(t.d + k, d), load(t.e + k, e);
-  const Floats upper = a + t.right * (c - a), lower = d + t.right * (e - d);
-  total += t.gain * (upper + t.below * (lower - upper));
-}
-LATERNA_INLINE void add(const BilinearTap& t, int k, float& total) {
-  const auto a = float(t.a[k]), c = float(t.c[k]), d = float(t.d[k]), e = float(t.e[k]);
-  const float upper = a + t.right * (c - a), lower = d + t.right * (e - d);
-  total += t.gain * (upper + t.below * (lower - upper));
+// a + share·(b - a).
+template <class D>
+HWY_INLINE hn::Vec<D> between(D d, hn::Vec<D> a, hn::Vec<D> b, float share) {
+  return hn::Add(a, hn::Mul(hn::Set(d, share), hn::Sub(b, a)));
 }
 
-LATERNA_INLINE void add(const NearestTap& t, int k, Floats& total) {
-  Floats texel;
-  load(t.texel + k, texel);
-  total += t.gain * texel;
-}
-LATERNA_INLINE void add(const NearestTap& t, int k, float& total) { total += t.gain * float(t.texel[k]); }
-
-LATERNA_INLINE void add(const TableTap& t, int k, float& total) {
-  total += t.gain * (t.light[t.texel[k]] + t.added[k]);
-}
-LATERNA_INLINE void add(const TableTap& t, int k, Floats& total) {
-  Floats light;
-  for (int j = 0; j < lanes; ++j) light[j] = t.light[t.texel[k + j]] + t.added[k + j];
-  total += t.gain * light;
+// What one tap gathers for the patterns from k on, before its gain.
+template <class D>
+HWY_INLINE hn::Vec<D> gathered(D d, const BilinearTap& t, int k) {
+  const auto upper = between(d, floats(d, t.a + k), floats(d, t.c + k), t.right);
+  const auto lower = between(d, floats(d, t.d + k), floats(d, t.e + k), t.right);
+  return between(d, upper, lower, t.below);
 }
 
-LATERNA_INLINE void add(const BitTap& t, int k, Floats& total) {
-  constexpr Ints bit = {1, 2, 4, 8, 16, 32, 64, 128};
-  std::int32_t gain_bits;
-  std::memcpy(&gain_bits, &t.gain, sizeof gain_bits);
-  const Ints code = static_cast<std::int32_t>((t.code >> k) & 0xffu) - Ints{};
-  const Ints gain = ((code & bit) == bit) & gain_bits;
-  total += reinterpret_cast<Floats>(gain);
-}
-LATERNA_INLINE void add(const BitTap& t, int k, float& total) { total += (t.code >> k) & 1u ? t.gain : 0.0f; }
-
-template <class Total, class Tap>
-LATERNA_INLINE void sum(const Tap* begin, const Tap* end, int k, float* sums) {
-  Total total{};
-  for (const Tap* t = begin; t != end; ++t) add(*t, k, total);
-  std::memcpy(sums + k, &total, sizeof total);
+template <class D>
+HWY_INLINE hn::Vec<D> gathered(D d, const NearestTap& t, int k) {
+  return floats(d, t.texel + k);
 }
 
-// All patterns of one pixel. The last 8 may overlap those before, with the same result.
-template <class Tap>
-LATERNA_INLINE void sum_pixel(const Tap* begin, const Tap* end, int count, float* sums) {
-  if (count < lanes) {
-    for (int k = 0; k < count; ++k) sum<float>(begin, end, k, sums);
-    return;
-  }
-  for (int k = 0; k + lanes <= count; k += lanes) sum<Floats>(begin, end, k, sums);
-  if (count % lanes != 0) sum<Floats>(begin, end, count - lanes, sums);
+template <class D>
+HWY_INLINE hn::Vec<D> gathered(D d, const TableTap& t, int k) {
+  const hn::Rebind<std::uint8_t, D> bytes;
+  const hn::Rebind<std::int32_t, D> ints;
+  const auto light = hn::GatherIndex(d, t.light, hn::PromoteTo(ints, hn::LoadU(bytes, t.texel + k)));
+  return hn::Add(light, hn::LoadU(d, t.added + k));
 }
 
-using Four = float __attribute__((vector_size(16)));
+template <class D, class Tap>
+HWY_INLINE hn::Vec<D> add(D d, const Tap& t, int k, hn::Vec<D> total) {
+  return hn::Add(total, hn::Mul(hn::Set(d, t.gain), gathered(d, t, k)));
+}
 
-LATERNA_INLINE Four load(const float* from) {
-  Four v;
-  std::memcpy(&v, from, sizeof v);
-  return v;
+template <class D>
+HWY_INLINE hn::Vec<D> add(D d, const BitTap& t, int k, hn::Vec<D> total) {
+  const hn::RebindToUnsigned<D> words;
+  const auto lane_bit = hn::Shl(hn::Set(words, 1u), hn::Iota(words, 0));
+  const auto bits = hn::And(hn::Set(words, std::uint32_t(t.code >> k)), lane_bit);
+  const auto on = hn::MaskFromVec(hn::BitCast(d, hn::VecFromMask(words, hn::Eq(bits, lane_bit))));
+  return hn::Add(total, hn::IfThenElseZero(on, hn::Set(d, t.gain)));
+}
+
+template <class D, class Tap>
+HWY_INLINE void sum(D d, const Tap* begin, const Tap* end, int k, float* sums) {
+  auto total = hn::Zero(d);
+  for (const Tap* t = begin; t != end; ++t) total = add(d, *t, k, total);
+  hn::StoreU(total, d, sums + k);
+}
+
+// True where there are enough patterns for whole vectors: the last may overlap those before, with the same
+// result.
+template <class D, class Tap>
+HWY_INLINE bool sum_pixel(D d, const Tap* begin, const Tap* end, int count, float* sums) {
+  const int lanes = int(hn::Lanes(d));
+  if (count < lanes) return false;
+  for (int k = 0; k + lanes <= count; k += lanes) sum(d, begin, end, k, sums);
+  if (count % lanes != 0) sum(d, begin, end, count - lanes, sums);
+  return true;
+}
+
+#if HWY_TARGET == HWY_SCALAR
+
+// levels[k·64 + i] = base[i] + sums[i·stride + k].
+HWY_INLINE void transpose(const float* sums, std::size_t stride, const float* base, int count,
+                          float* levels) {
+  for (std::size_t i = 0; i < block; ++i)
+    for (int k = 0; k < count; ++k) levels[k * block + i] = base[i] + sums[i * stride + k];
+}
+
+#else
+
+// Rows of four floats to columns.
+HWY_INLINE void turn(hn::Vec<Four>& a, hn::Vec<Four>& b, hn::Vec<Four>& c, hn::Vec<Four>& e) {
+  constexpr Four d;
+  const auto ab = hn::InterleaveLower(d, a, b), ab_upper = hn::InterleaveUpper(d, a, b);
+  const auto ce = hn::InterleaveLower(d, c, e), ce_upper = hn::InterleaveUpper(d, c, e);
+  a = hn::ConcatLowerLower(d, ce, ab), b = hn::ConcatUpperUpper(d, ce, ab);
+  c = hn::ConcatLowerLower(d, ce_upper, ab_upper), e = hn::ConcatUpperUpper(d, ce_upper, ab_upper);
 }
 
 // levels[k·64 + i] = base[i] + sums[i·stride + k], four by four.
-LATERNA_INLINE void transpose(const float* sums, int stride, const float* base, int count, float* levels) {
-  for (int k = 0; k < count; k += 4) {
-    for (int i = 0; i < block; i += 4) {
+HWY_INLINE void transpose(const float* sums, std::size_t stride, const float* base, int count,
+                          float* levels) {
+  constexpr Four d;
+  for (std::size_t i = 0; i < block; i += 4) {
+    const auto from = hn::LoadU(d, base + i);
+    for (int k = 0; k < count; k += 4) {
       const float* s = sums + i * stride + k;
-      const Four a = load(s), b = load(s + stride), c = load(s + 2 * stride), d = load(s + 3 * stride);
-      const Four ab0 = __builtin_shufflevector(a, b, 0, 4, 1, 5),
-                 ab1 = __builtin_shufflevector(a, b, 2, 6, 3, 7);
-      const Four cd0 = __builtin_shufflevector(c, d, 0, 4, 1, 5),
-                 cd1 = __builtin_shufflevector(c, d, 2, 6, 3, 7);
-      const Four row[4] = {
-          __builtin_shufflevector(ab0, cd0, 0, 1, 4, 5), __builtin_shufflevector(ab0, cd0, 2, 3, 6, 7),
-          __builtin_shufflevector(ab1, cd1, 0, 1, 4, 5), __builtin_shufflevector(ab1, cd1, 2, 3, 6, 7)};
-      const Four from = load(base + i);
-      for (int j = 0; j < 4; ++j) {
-        const Four level = from + row[j];
-        std::memcpy(levels + (k + j) * block + i, &level, sizeof level);
-      }
+      auto a = hn::LoadU(d, s), b = hn::LoadU(d, s + stride), c = hn::LoadU(d, s + 2 * stride),
+           e = hn::LoadU(d, s + 3 * stride);
+      turn(a, b, c, e);
+      float* to = levels + std::size_t(k) * block + i;
+      hn::StoreU(hn::Add(from, a), d, to), hn::StoreU(hn::Add(from, b), d, to + block);
+      hn::StoreU(hn::Add(from, c), d, to + 2 * block), hn::StoreU(hn::Add(from, e), d, to + 3 * block);
     }
   }
 }
 
+#endif
+
 template <class Tap>
-LATERNA_INLINE void sum_block(const Tap* taps, const std::uint32_t* first, const float* base, int pixels,
-                              int count, float* scratch, float* levels) {
-  const int stride = padded(count);
-  for (int i = 0; i < pixels; ++i)
-    sum_pixel(taps + first[i], taps + first[i + 1], count, scratch + std::size_t(i) * stride);
+HWY_INLINE void sum_block(const Tap* taps, const std::uint32_t* first, const float* base, int pixels,
+                          int count, float* scratch, float* levels) {
+  const std::size_t stride = padded(count);
+  for (int i = 0; i < pixels; ++i) {
+    const Tap *begin = taps + first[i], *end = taps + first[i + 1];
+    float* sums = scratch + i * stride;
+    if (!sum_pixel(Wide(), begin, end, count, sums) && !sum_pixel(Four(), begin, end, count, sums))
+      sum_pixel(Single(), begin, end, count, sums);
+  }
   transpose(scratch, stride, base, count, levels);
 }
 
+#define LATERNA_SUM_TAPS(Tap, name)                                                                \
+  void name(const Tap* taps, const std::uint32_t* first, const float* base, int pixels, int count, \
+            float* scratch, float* levels) {                                                       \
+    sum_block(taps, first, base, pixels, count, scratch, levels);                                  \
+  }
+LATERNA_SUM_TAPS(BilinearTap, sum_bilinear)
+LATERNA_SUM_TAPS(NearestTap, sum_nearest)
+LATERNA_SUM_TAPS(TableTap, sum_table)
+LATERNA_SUM_TAPS(BitTap, sum_bits)
+#undef LATERNA_SUM_TAPS
+
 // The codes are cut into bytes first, so that 8 pictures share one load of them.
 template <class Number>
-LATERNA_INLINE void expand_block(const std::uint64_t* codes, const Number* off, const Number* on, int pixels,
-                                 int count, Planes<Number> out) {
-  Number differing[block], bytes[block], row[block];
-  for (int i = 0; i < block; ++i) differing[i] = Number(on[i] ^ off[i]);
+HWY_INLINE void expand_block(const std::uint64_t* codes, const Number* off, const Number* on, int pixels,
+                             int count, Planes<Number> out) {
+  const hn::CappedTag<Number, block> d;
+  alignas(64) Number differing[block], bytes[block], row[block];
+  for (std::size_t i = 0; i < block; ++i) differing[i] = Number(on[i] ^ off[i]);
   for (int k0 = 0; k0 < count; k0 += 8) {
-    for (int i = 0; i < block; ++i) bytes[i] = Number((codes[i] >> k0) & 0xffu);
+    for (std::size_t i = 0; i < block; ++i) bytes[i] = Number((codes[i] >> k0) & 0xffu);
     for (int k = k0; k < count && k < k0 + 8; ++k) {
-      const Number bit = Number(1u << (k - k0));
-      for (int i = 0; i < block; ++i) {
-        const Number mask = (bytes[i] & bit) == bit ? Number(~Number{0}) : Number{0};
-        row[i] = Number(off[i] ^ (differing[i] & mask));
+      const auto bit = hn::Set(d, Number(1u << (k - k0)));
+      Number* to = out.first + k * out.stride;
+      Number* written = pixels == int(block) ? to : row;
+      for (std::size_t i = 0; i < block; i += hn::Lanes(d)) {
+        const auto is_on = hn::TestBit(hn::Load(d, bytes + i), bit);
+        const auto change = hn::IfThenElseZero(is_on, hn::Load(d, differing + i));
+        hn::StoreU(hn::Xor(hn::LoadU(d, off + i), change), d, written + i);
       }
-      std::memcpy(out.first + k * out.stride, row, pixels == block ? sizeof row : pixels * sizeof(Number));
+      if (written == row) std::memcpy(to, row, pixels * sizeof(Number));
     }
   }
 }
 
-}  // namespace
-
-LATERNA_CLONES void sum_taps(const BilinearTap* taps, const std::uint32_t* first, const float* base,
-                             int pixels, int count, float* scratch, float* levels) {
-  sum_block(taps, first, base, pixels, count, scratch, levels);
-}
-LATERNA_CLONES void sum_taps(const NearestTap* taps, const std::uint32_t* first, const float* base,
-                             int pixels, int count, float* scratch, float* levels) {
-  sum_block(taps, first, base, pixels, count, scratch, levels);
-}
-LATERNA_CLONES void sum_taps(const TableTap* taps, const std::uint32_t* first, const float* base, int pixels,
-                             int count, float* scratch, float* levels) {
-  sum_block(taps, first, base, pixels, count, scratch, levels);
-}
-LATERNA_CLONES void sum_taps(const BitTap* taps, const std::uint32_t* first, const float* base, int pixels,
-                             int count, float* scratch, float* levels) {
-  sum_block(taps, first, base, pixels, count, scratch, levels);
-}
-
-LATERNA_CLONES void expand_bits(const std::uint64_t* codes, const std::uint8_t* off, const std::uint8_t* on,
-                                int pixels, int count, Planes<std::uint8_t> out) {
+void expand_bits_8(const std::uint64_t* codes, const std::uint8_t* off, const std::uint8_t* on, int pixels,
+                   int count, Planes<std::uint8_t> out) {
   expand_block(codes, off, on, pixels, count, out);
 }
-LATERNA_CLONES void expand_bits(const std::uint64_t* codes, const std::uint16_t* off, const std::uint16_t* on,
-                                int pixels, int count, Planes<std::uint16_t> out) {
+void expand_bits_16(const std::uint64_t* codes, const std::uint16_t* off, const std::uint16_t* on, int pixels,
+                    int count, Planes<std::uint16_t> out) {
   expand_block(codes, off, on, pixels, count, out);
 }
 
 void stream_rows(const std::byte* from, std::size_t from_stride, std::size_t bytes, int count, std::byte* to,
                  std::size_t to_stride) {
-  constexpr std::size_t line = 64;
+  const hn::CappedTag<std::uint8_t, 64> d;
+  const std::size_t lanes = hn::Lanes(d);
   for (int k = 0; k < count; ++k, from += from_stride, to += to_stride) {
-#ifdef __SSE2__
-    if (reinterpret_cast<std::uintptr_t>(to) % line == 0 && bytes % line == 0) {
-      for (std::size_t i = 0; i < bytes; i += sizeof(__m128i))
-        _mm_stream_si128(reinterpret_cast<__m128i*>(to + i),
-                         _mm_loadu_si128(reinterpret_cast<const __m128i*>(from + i)));
+    if (reinterpret_cast<std::uintptr_t>(to) % lanes != 0 || bytes % lanes != 0) {
+      std::memcpy(to, from, bytes);
       continue;
     }
-#endif
-    std::memcpy(to, from, bytes);
+    const auto* source = reinterpret_cast<const std::uint8_t*>(from);
+    auto* target = reinterpret_cast<std::uint8_t*>(to);
+    for (std::size_t i = 0; i < bytes; i += lanes) hn::Stream(hn::LoadU(d, source + i), d, target + i);
   }
-#ifdef __SSE2__
-  _mm_sfence();
-#endif
+  hwy::FlushStream();
+}
+
+}  // namespace
+}  // namespace laterna::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace laterna {
+
+namespace {
+HWY_EXPORT(sum_bilinear);
+HWY_EXPORT(sum_nearest);
+HWY_EXPORT(sum_table);
+HWY_EXPORT(sum_bits);
+HWY_EXPORT(expand_bits_8);
+HWY_EXPORT(expand_bits_16);
+HWY_EXPORT(stream_rows);
+}  // namespace
+
+void sum_taps(const BilinearTap* taps, const std::uint32_t* first, const float* base, int pixels, int count,
+              float* scratch, float* levels) {
+  HWY_DYNAMIC_DISPATCH(sum_bilinear)(taps, first, base, pixels, count, scratch, levels);
+}
+void sum_taps(const NearestTap* taps, const std::uint32_t* first, const float* base, int pixels, int count,
+              float* scratch, float* levels) {
+  HWY_DYNAMIC_DISPATCH(sum_nearest)(taps, first, base, pixels, count, scratch, levels);
+}
+void sum_taps(const TableTap* taps, const std::uint32_t* first, const float* base, int pixels, int count,
+              float* scratch, float* levels) {
+  HWY_DYNAMIC_DISPATCH(sum_table)(taps, first, base, pixels, count, scratch, levels);
+}
+void sum_taps(const BitTap* taps, const std::uint32_t* first, const float* base, int pixels, int count,
+              float* scratch, float* levels) {
+  HWY_DYNAMIC_DISPATCH(sum_bits)(taps, first, base, pixels, count, scratch, levels);
+}
+
+void expand_bits(const std::uint64_t* codes, const std::uint8_t* off, const std::uint8_t* on, int pixels,
+                 int count, Planes<std::uint8_t> out) {
+  HWY_DYNAMIC_DISPATCH(expand_bits_8)(codes, off, on, pixels, count, out);
+}
+void expand_bits(const std::uint64_t* codes, const std::uint16_t* off, const std::uint16_t* on, int pixels,
+                 int count, Planes<std::uint16_t> out) {
+  HWY_DYNAMIC_DISPATCH(expand_bits_16)(codes, off, on, pixels, count, out);
+}
+
+void stream_rows(const std::byte* from, std::size_t from_stride, std::size_t bytes, int count, std::byte* to,
+                 std::size_t to_stride) {
+  HWY_DYNAMIC_DISPATCH(stream_rows)(from, from_stride, bytes, count, to, to_stride);
 }
 
 }  // namespace laterna
+#endif

@@ -18,8 +18,24 @@ struct Tile {
   RayPacket rays;
   HitPacket hits;
   glm::dvec2 direction[packet_size];  // x/z, y/z in the camera's frame
+  const LensPoints* lens;             // null: rays start at the camera's centre
+  glm::dvec2 start_m[packet_size];    // with a lens: x, y in the camera's frame
   int count_x, count_y;               // pixels inside the image
 };
+
+// `first`: the place of the tile's first pixel among the lens's points, in rows of `stride`.
+void start_on_lens(Tile& tile, const CameraView& view, std::size_t first, int stride) {
+  for (int lane = 0; lane < packet_size; ++lane) {
+    const int i = lane % tile_edge, j = lane / tile_edge;
+    const bool inside = i < tile.count_x && j < tile.count_y;
+    const glm::dvec2 at = inside ? glm::dvec2(tile.lens->points_m[first + j * stride + i]) : glm::dvec2(0.0);
+    const glm::dvec3 start = view.camera_relative + view.world_from_device * glm::dvec3(at, 0.0);
+    tile.start_m[lane] = at;
+    tile.rays.origin_x[lane] = static_cast<float>(start.x);
+    tile.rays.origin_y[lane] = static_cast<float>(start.y);
+    tile.rays.origin_z[lane] = static_cast<float>(start.z);
+  }
+}
 
 // `offsets_px`: null, or that of the tile's first pixel, in rows of `stride`.
 void aim(Tile& tile, const CameraView& view, const CameraRays& directions, const glm::ivec2& first_px,
@@ -29,6 +45,7 @@ void aim(Tile& tile, const CameraView& view, const CameraRays& directions, const
     glm::dvec2 d(nan);
     if (i < tile.count_x && j < tile.count_y)
       d = offsets_px ? directions.direction(x, y, offsets_px[j * stride + i]) : directions.direction(x, y);
+    if (tile.lens) d -= tile.start_m[lane] / tile.lens->focus_m;
     const glm::dmat3& m = view.world_from_device;
     tile.direction[lane] = d;
     tile.rays.valid[lane] = d.x == d.x ? -1 : 0;
@@ -47,13 +64,16 @@ void write_miss(SurfaceMap& map, std::size_t p) {
 }
 
 void write_hit(SurfaceMap& map, std::size_t p, const ObjectView& object, const TrianglePlane& plane,
-               const glm::dvec2& d, double embree_depth) {
+               const glm::dvec2& d, const glm::dvec2* start_m, double embree_depth) {
+  const glm::dvec3 beside_object =
+      start_m ? object.object_from_device * glm::dvec3(*start_m, 0.0) : glm::dvec3(0.0);
   const glm::dvec3 ray_object = object.object_from_device * glm::dvec3(d, 1.0);
   const double slope = glm::dot(plane.normal_object, ray_object);
-  double depth = (plane.distance - glm::dot(plane.normal_object, object.camera_from_center)) / slope;
+  double depth =
+      (plane.distance - glm::dot(plane.normal_object, object.camera_from_center + beside_object)) / slope;
   if (!(std::abs(depth - embree_depth) <= 1e-3 * embree_depth)) depth = embree_depth;
   map.depth_m.values[p] = depth;
-  map.point_object.values[p] = object.camera_object + depth * ray_object;
+  map.point_object.values[p] = object.camera_object + beside_object + depth * ray_object;
   map.seen_front.values[p] = slope < 0;
   map.albedo.values[p] = slope < 0 ? object.albedo : object.back_albedo;
 }
@@ -77,7 +97,8 @@ void write_tile(SurfaceMap& map, const Tile& tile, const CameraView& view, const
       map.object.values[p] = id;
       map.triangle.values[p] = triangle;
       const ObjectView& object = view.objects[id];
-      write_hit(map, p, object, scene.plane(id, triangle), tile.direction[lane], tile.hits.t[lane]);
+      write_hit(map, p, object, scene.plane(id, triangle), tile.direction[lane],
+                tile.lens ? &tile.start_m[lane] : nullptr, tile.hits.t[lane]);
       if (object.textured) apply_albedo_map(map, p, *object.textured, triangle);
     }
   }
@@ -109,9 +130,10 @@ SurfaceMap make_surface_map(const PixelRegion& region) {
 }
 
 void trace_surface_tiles(const RayScene& rays, const CameraView& view, const CameraRays& directions,
-                         int tile_row, SurfaceMap& map, const glm::vec2* offsets_px) {
+                         int tile_row, SurfaceMap& map, const glm::vec2* offsets_px, const LensPoints* lens) {
   const int y0 = tile_row * tile_edge;
   Tile tile;
+  tile.lens = lens;
   std::fill_n(tile.rays.origin_x, packet_size, static_cast<float>(view.camera_relative.x));
   std::fill_n(tile.rays.origin_y, packet_size, static_cast<float>(view.camera_relative.y));
   std::fill_n(tile.rays.origin_z, packet_size, static_cast<float>(view.camera_relative.z));
@@ -120,6 +142,7 @@ void trace_surface_tiles(const RayScene& rays, const CameraView& view, const Cam
   for (int x0 = 0; x0 < map.width; x0 += tile_edge) {
     tile.count_x = std::min(tile_edge, map.width - x0);
     const glm::vec2* offsets = offsets_px ? offsets_px + map.object.index(x0, y0) : nullptr;
+    if (lens) start_on_lens(tile, view, map.object.index(x0, y0), map.width);
     aim(tile, view, directions, map.first_px + glm::ivec2(x0, y0), offsets, map.width);
     rays.first_hits(tile.rays, tile.hits);
     write_tile(map, tile, view, rays, x0, y0);

@@ -53,13 +53,22 @@ struct CameraView {
 };
 CameraView make_camera_view(const RayScene& rays, const Scene& scene, const Camera& camera);
 
+/// Rays that start beside the camera's centre: that of pixel p of a map starts at points_m[p], x and y in the
+/// camera's plane z = 0, and meets the pixel's ray through the centre at axial depth focus_m.
+struct LensPoints {
+  double focus_m;
+  const glm::vec2* points_m;
+};
+
 /// A map of a region with nothing written yet.
 SurfaceMap make_surface_map(const PixelRegion& region);
 
 /// Traces row `tile_row` of the map's 4×4 tiles: the same numbers as in the map of the whole image. Where
-/// `offsets_px` is given, one per pixel of the map, rays pass that far beside the pixels' centres.
+/// `offsets_px` is given, one per pixel of the map, rays pass that far beside the pixels' centres;
+/// where `lens` is, they start there.
 void trace_surface_tiles(const RayScene& rays, const CameraView& view, const CameraRays& directions,
-                         int tile_row, SurfaceMap& map, const glm::vec2* offsets_px = nullptr);
+                         int tile_row, SurfaceMap& map, const glm::vec2* offsets_px = nullptr,
+                         const LensPoints* lens = nullptr);
 
 /// What each pixel sees in world coordinates, in metres; NaN where nothing is hit.
 PixelArray<glm::dvec3> points_world(const SurfaceMap& surface, const Scene& scene);

@@ -1,6 +1,9 @@
 #include "render/trace_rows.h"
 
 #include "render/effects/apply_effects.h"
+#include "render/effects/camera_defocus.h"
+#include "render/effects/diffraction.h"
+#include "render/effects/fill_factor.h"
 #include "render/effects/response.h"
 #include "render/exposure.h"
 #include "sim/error.h"
@@ -8,7 +11,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
+#include <optional>
 
 namespace laterna {
 
@@ -28,6 +33,33 @@ struct Maps {
   }
 };
 
+// Where one sample of each of a region's pixels starts and aims.
+struct SampleRays {
+  std::vector<glm::vec2> offsets_px, lens_m;
+};
+
+// What blurs the projector's picture; none where each entry is a point of it.
+std::optional<PanelBlur> panel_blur(const Scene& scene, const Projector& projector) {
+  const Effects& on = scene.effects;
+  const Optics& optics = projector.effects.optics;
+  const Intrinsics& k = projector.device.intrinsics;
+  const bool defocus = on.projector_defocus && optics.aperture_m && optics.focus_m;
+  const bool diffraction = on.diffraction && optics.aperture_m;
+  const double side_px = active_side_px(on, optics);
+  if (!defocus && !diffraction && side_px == 1) return {};
+  PanelBlur blur{k.size, projector.border == Border::clamp || !on.border, side_px};
+  if (diffraction) blur.discs = airy_discs(airy_unit_px(optics, k));
+  return blur;
+}
+
+bool defocuses(const Scene& scene, const Camera& camera) {
+  return scene.effects.camera_defocus && camera.optics.aperture_m && camera.optics.focus_m;
+}
+
+bool diffracts(const Scene& scene, const Camera& camera) {
+  return scene.effects.diffraction && camera.optics.aperture_m;
+}
+
 // Traces a region, one sample of each pixel at a time.
 class Tracer {
  public:
@@ -37,55 +69,80 @@ class Tracer {
         scene_(scene),
         directions_(directions),
         camera_index_(camera),
-        camera_(make_camera_view(rays, scene, scene.cameras[camera])),
+        camera_(scene.cameras[camera]),
+        view_(make_camera_view(rays, scene, camera_)),
+        blur_(panel_blur(scene, scene.projectors[projector])),
         idle_(idle_projectors(scene, projector)),
         samples_(samples) {
-    add_projector(projector);
-    for (const IdleProjector& i : idle_) add_projector(i.projector);
+    Projector playing = scene.projectors[projector];
+    if (blur_) playing.border = Border::clamp;  // points beyond the sharp picture's edge get light too
+    add_projector(projector, playing);
+    for (const IdleProjector& i : idle_) add_projector(i.projector, scene.projectors[i.projector]);
   }
 
   void operator()(LightRows& rows) const {
+    if (samples_.count == 1)
+      trace_centres(rows);
+    else
+      trace_samples(rows);
+    if (blur_) spread_over_panel(rows, *blur_);
+  }
+
+ private:
+  void add_projector(int index, const Projector& projector) {
+    projectors_.push_back(&scene_.projectors[index]);
+    views_.push_back(make_projector_view(rays_, scene_, projector));
+  }
+
+  void trace_centres(LightRows& rows) const {
     Maps maps(rows.region, idle_);
-    if (samples_.count == 1) {
-      trace(maps, nullptr);
-      direct_rows(maps.surface, maps.lights[0], maps.idle, scene_.ambient_lx, rows);
-      return;
-    }
+    trace(maps, {});
+    direct_rows(maps.surface, maps.lights[0], maps.idle, scene_.ambient_lx, rows);
+  }
+
+  void trace_samples(LightRows& rows) const {
+    Maps maps(rows.region, idle_);
     RowBuilder builder(rows.region.size());
-    std::vector<glm::vec2> offsets(rows.region.size());
+    SampleRays places;
     rows.ambient_cd_per_m2.assign(rows.region.size(), 0);
     for (int sample = 0; sample < samples_.count; ++sample) {
-      jitter(rows.region, sample, offsets);
-      trace(maps, offsets.data());
+      place(rows.region, sample, places);
+      trace(maps, places);
       collect(maps, rows, builder);
     }
     builder.finish(rows);
   }
 
- private:
-  void add_projector(int index) {
-    projectors_.push_back(&scene_.projectors[index]);
-    views_.push_back(make_projector_view(rays_, scene_, scene_.projectors[index]));
-  }
-
-  void trace(Maps& maps, const glm::vec2* offsets) const {
+  void trace(Maps& maps, const SampleRays& places) const {
     SurfaceMap& surface = maps.surface;
+    const glm::vec2* offsets_px = places.offsets_px.empty() ? nullptr : places.offsets_px.data();
+    const LensPoints lens{camera_.optics.focus_m.value_or(0), places.lens_m.data()};
     for (int tile_row = 0; tile_row * tile_edge < surface.height; ++tile_row) {
-      trace_surface_tiles(rays_, camera_, directions_, tile_row, surface, offsets);
+      trace_surface_tiles(rays_, view_, directions_, tile_row, surface, offsets_px,
+                          places.lens_m.empty() ? nullptr : &lens);
       for (std::size_t i = 0; i < views_.size(); ++i)
         trace_light_tiles(rays_, views_[i], surface, tile_row, maps.lights[i]);
     }
-    const Camera& camera = scene_.cameras[camera_index_];
     apply_surface_effects(surface, scene_);
     for (std::size_t i = 0; i < views_.size(); ++i)
-      apply_light_effects(maps.lights[i], surface, rays_, scene_, *projectors_[i], camera);
-    apply_camera_effects(surface, rays_, scene_, camera);
+      apply_light_effects(maps.lights[i], surface, rays_, scene_, *projectors_[i], camera_);
+    apply_camera_effects(surface, rays_, scene_, camera_);
   }
 
-  void jitter(const PixelRegion& region, int sample, std::vector<glm::vec2>& offsets) const {
-    for (std::size_t p = 0; p < offsets.size(); ++p) {
+  void place(const PixelRegion& region, int sample, SampleRays& places) const {
+    const auto id = std::uint32_t(camera_index_);
+    const bool on_lens = defocuses(scene_, camera_), turned = diffracts(scene_, camera_);
+    const double airy_px = airy_unit_px(camera_.optics, camera_.device.intrinsics);
+    places.offsets_px.resize(region.size());
+    if (on_lens) places.lens_m.resize(region.size());
+    for (std::size_t p = 0; p < region.size(); ++p) {
       const glm::ivec2 pixel(region.x + int(p) % region.width, region.y + int(p) / region.width);
-      offsets[p] = sample_offset_px(samples_, std::uint32_t(camera_index_), pixel, sample);
+      places.offsets_px[p] = sample_offset_px(samples_, id, pixel, sample);
+      if (turned)
+        places.offsets_px[p] +=
+            float(airy_px) *
+            airy_point(disc_from_square(stratified_square(samples_, id, pixel, sample, SampleUse::airy)));
+      if (on_lens) places.lens_m[p] = lens_point_m(camera_.optics, samples_, id, pixel, sample);
     }
   }
 
@@ -98,7 +155,7 @@ class Tracer {
       if (!light.lit(p)) continue;
       const double albedo = maps.surface.albedo.values[p];
       builder.add(p, {light.u_px.values[p], light.v_px.values[p],
-                      share * luminance_cd_per_m2(albedo, light.white_lx.values[p], 0)});
+                      share * luminance_cd_per_m2(albedo, light.white_lx.values[p], 0), light.footprint(p)});
     }
   }
 
@@ -106,7 +163,9 @@ class Tracer {
   const Scene& scene_;
   const CameraRays& directions_;
   int camera_index_;
-  CameraView camera_;
+  const Camera& camera_;
+  CameraView view_;
+  std::optional<PanelBlur> blur_;
   std::vector<IdleProjector> idle_;
   std::vector<const Projector*> projectors_;  // the playing one, then the idle ones
   std::vector<ProjectorView> views_;
@@ -125,7 +184,10 @@ RowSource trace_rows(const RayScene& rays, const Scene& scene, int camera, const
 }
 
 PixelSamples samples_of(const Scene& scene, int camera, std::uint64_t seed) {
-  return {scene.effects.antialiasing ? scene.cameras[camera].samples_per_pixel : 1, seed};
+  const Camera& c = scene.cameras[camera];
+  const bool antialiasing = scene.effects.antialiasing;
+  const bool spread = antialiasing || defocuses(scene, c) || diffracts(scene, c);
+  return {spread ? c.samples_per_pixel : 1, seed, antialiasing ? active_side_px(scene.effects, c.optics) : 0};
 }
 
 std::vector<IdleProjector> idle_projectors(const Scene& scene, int projector) {
@@ -137,6 +199,10 @@ std::vector<IdleProjector> idle_projectors(const Scene& scene, int projector) {
   return idle;
 }
 
-bool rows_are_direct(const Scene& scene, int camera) { return samples_of(scene, camera, 0).count == 1; }
+bool rows_are_direct(const Scene& scene, int camera) {
+  const auto blurs = [&](const Projector& projector) { return panel_blur(scene, projector).has_value(); };
+  return samples_of(scene, camera, 0).count == 1 &&
+         std::none_of(scene.projectors.begin(), scene.projectors.end(), blurs);
+}
 
 }  // namespace laterna

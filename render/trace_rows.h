@@ -12,12 +12,14 @@ namespace laterna {
 /// constant light.
 ///
 /// Each of a pixel's samples is traced as if it were a pixel, its entries weigh 1/count of what the pixel's
-/// would, and constant light is the mean. The arguments must outlive the result. Throws InputError where
+/// would, and constant light is the mean. Where the projector's lens or panel blurs, entries are then spread
+/// over the panel (render/panel_blur.h). The arguments must outlive the result. Throws InputError where
 /// samples.count is outside 1..4096.
 RowSource trace_rows(const RayScene& rays, const Scene& scene, int camera, const CameraRays& directions,
                      int projector, const PixelSamples& samples = {});
 
-/// The samples that the scene asks for: samples_per_pixel with antialiasing, else 1.
+/// The samples that the scene asks for: samples_per_pixel with antialiasing, or where the camera's lens
+/// blurs; else 1. Without antialiasing they lie at the pixel's centre.
 PixelSamples samples_of(const Scene& scene, int camera, std::uint64_t seed);
 
 /// What a camera sees beside one projector's pictures: the others that show some light as black.

@@ -26,12 +26,23 @@ struct CaptureSequence {
   int bit_depth = 8;
   double saturation_cd_per_m2 = 0;    ///< the luminance that fills the scale; 0: not known
   double exposure_time_s = 0;         ///< of an EMVA 1288 sensor; 0: not known, and then not written
-  std::vector<std::string> pictures;  ///< in the order of the patterns
+  std::vector<std::string> pictures;  ///< in the order of the patterns: one file each, or one file of pages
   std::string truth;                  ///< multi-layer EXR; empty: not known
 };
 
 /// manifest.json: {"format": "laterna-capture", "version": 1, "scene", "seed", "matrices", "sequences":
 /// [...]}, each sequence with the fields of CaptureSequence as keys and sizes as [W, H].
+///
+/// `laterna capture --format` chooses how a sequence's pictures stand on disk. All keep the digital numbers,
+/// 8 bits as 8 and 9 to 16 bits as 16, exactly:
+///
+///   png        CAMERA/PROJECTOR/00.png, 01.png, ...; smallest, fast setting, encoded in parallel
+///   tif        the same as uncompressed TIFF: written as fast as the disk takes them
+///   pgm        the same as binary PGM; cameras of 8 bits only
+///   exr        the same as ZIP-packed EXR, the numbers unscaled: half floats for 8 bits (exact to 2048),
+///   single
+///              floats for more (exact to 2²⁴)
+///   tif-pages  CAMERA/PROJECTOR/pages.tif alone: one uncompressed page per picture
 struct CaptureManifest {
   std::string scene;  ///< scene file, relative to the folder; empty: none
   std::uint64_t seed = 0;

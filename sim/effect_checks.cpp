@@ -44,6 +44,47 @@ void check_projector_effects(const SceneSpec& scene) {
   expect(on.black_level, "black_level", "black_level", [](const P& p) { return p.black_level.has_value(); });
 }
 
+bool focuses(const Optics& optics) { return optics.aperture_m && optics.focus_m; }
+
+void check_camera_samples(const SceneSpec& scene) {
+  const Effects& on = scene.effects;
+  for (const CameraSpec& camera : scene.cameras) {
+    const Optics& optics = camera.optics;
+    const bool spreads = (on.camera_defocus && focuses(optics)) || (on.diffraction && optics.aperture_m);
+    if (spreads && camera.samples_per_pixel < 2)
+      throw InputError(fmt::format(
+          "[effects]: {} is on, but samples_per_pixel of a [[camera]] is 1, expected more: its rays are "
+          "spread over the aperture",
+          on.camera_defocus ? "camera_defocus" : "diffraction"));
+    if (on.fill_factor && optics.fill_factor < 1 && !on.antialiasing)
+      throw InputError(
+          "[effects]: fill_factor is on and a [[camera]] has it, but antialiasing is off, expected on: it "
+          "is the antialiasing's rays that leave a pixel's rim out");
+  }
+}
+
+template <class Given>
+bool any_optics(const SceneSpec& scene, const Given& given) {
+  return std::any_of(scene.cameras.begin(), scene.cameras.end(),
+                     [&](const CameraSpec& c) { return given(c.optics); }) ||
+         std::any_of(scene.projectors.begin(), scene.projectors.end(),
+                     [&](const ProjectorSpec& p) { return given(p.effects.optics); });
+}
+
+void check_optics(const SceneSpec& scene) {
+  const Effects& on = scene.effects;
+  expect_given(on.camera_defocus, "camera_defocus", "camera", "aperture_m (with focus_m)", scene.cameras,
+               [](const CameraSpec& c) { return focuses(c.optics); });
+  expect_given(on.projector_defocus, "projector_defocus", "projector", "aperture_m (with focus_m)",
+               scene.projectors, [](const ProjectorSpec& p) { return focuses(p.effects.optics); });
+  if (on.diffraction && !any_optics(scene, [](const Optics& o) { return o.aperture_m.has_value(); }))
+    throw InputError(
+        "[effects]: diffraction is on, but no device has the key aperture_m, expected at least one");
+  if (on.fill_factor && !any_optics(scene, [](const Optics& o) { return o.fill_factor < 1; }))
+    throw InputError("[effects]: fill_factor is on, but no device has one below 1, expected at least one");
+  check_camera_samples(scene);
+}
+
 void check_slide(const SceneSpec& scene) {
   const bool is_slide = scene.patterns.kind == PatternKind::slide;
   if (scene.effects.slide && !is_slide)
@@ -149,6 +190,7 @@ void check_references(const SceneSpec& named) {
 void check_effects(const SceneSpec& scene) {
   check_projector_effects(scene);
   check_slide(scene);
+  check_optics(scene);
   check_colour_and_timing(scene);
   const Effects& on = scene.effects;
   expect_given(on.camera_vignetting, "camera_vignetting", "camera", "vignetting", scene.cameras,

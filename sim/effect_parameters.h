@@ -41,6 +41,15 @@ struct Scaler {
   bool operator==(const Scaler&) const = default;
 };
 
+/// What softens a device's picture.
+struct Optics {
+  std::optional<double> aperture_m{};  ///< diameter of the lens's opening
+  std::optional<double> focus_m{};     ///< axial depth of the plane that is sharp
+  double wavelength_m = 550e-9;        ///< of the light, for diffraction
+  double fill_factor = 1;              ///< share of a pixel's area, about its centre, that is active
+  bool operator==(const Optics&) const = default;
+};
+
 struct ProjectorEffects {
   Vignetting vignetting{};
   Spotlight spotlight{};
@@ -50,6 +59,7 @@ struct ProjectorEffects {
   std::vector<double> response_table{};
   std::optional<double> black_level{};    ///< light of black over light of white
   std::optional<double> veiling_glare{};  ///< share of the light that the lens scatters over the picture
+  Optics optics{};
   bool operator==(const ProjectorEffects&) const = default;
 };
 

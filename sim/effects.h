@@ -12,7 +12,9 @@ struct Effects {
   bool scaler = false, spotlight = false, attenuation = false, slide = false;
   bool gloss = false, normal_map = false, solid_albedo = false;
   bool response = false, black_level = false;
-  bool antialiasing = false;
+  bool projector_lens = true, camera_lens = true;
+  bool antialiasing = false, camera_defocus = false, projector_defocus = false;
+  bool diffraction = false, fill_factor = false;
   bool colour = false, timing = false, camera_glare = false;
   bool operator==(const Effects&) const = default;
 };
@@ -20,7 +22,7 @@ struct Effects {
 /// One switch. The description of [effects], its checks and the report of costs go through all_effects.
 struct EffectSwitch {
   const char* name;      ///< its key
-  const char* stage;     ///< rays, surface, rows, weight, pattern, replay or exposure
+  const char* stage;     ///< warp, rays, surface, rows, weight, pattern, replay or exposure
   const char* sentence;  ///< what it does, for the docs
   bool Effects::*on;
 };
@@ -53,7 +55,20 @@ inline constexpr auto all_effects = std::to_array<EffectSwitch>({
     {"response", "pattern", "Needs `response_exponent` or `response_table` of a [[projector]].",
      &Effects::response},
     {"black_level", "pattern", "Needs `black_level` of a [[projector]].", &Effects::black_level},
+    {"projector_lens", "warp", "`lens` of [[projector]]. Off: a pinhole.", &Effects::projector_lens},
+    {"camera_lens", "warp", "`lens` of [[camera]]. Off: a pinhole.", &Effects::camera_lens},
     {"antialiasing", "rays", "Needs `samples_per_pixel` above 1 of a [[camera]].", &Effects::antialiasing},
+    {"camera_defocus", "rays",
+     "Needs `aperture_m` and `focus_m` of a [[camera]], and `samples_per_pixel` above 1.",
+     &Effects::camera_defocus},
+    {"projector_defocus", "rows", "Needs `aperture_m` and `focus_m` of a [[projector]].",
+     &Effects::projector_defocus},
+    {"diffraction", "rows",
+     "Needs `aperture_m` of a [[projector]], or of a [[camera]] with `samples_per_pixel` above 1.",
+     &Effects::diffraction},
+    {"fill_factor", "rows",
+     "Needs `fill_factor` below 1 of a [[projector]], or, with `antialiasing`, of a [[camera]].",
+     &Effects::fill_factor},
     {"colour", "weight",
      "Projectors have a red, a green and a blue primary. Needs a coloured slide, `colour` of [patterns], "
      "[[colour]], or a `colour_filter` of a [[camera]].",

@@ -1,4 +1,5 @@
-// Picture files: the one place that writes and reads them (with OpenImageIO).
+// Picture files: the one place that writes and reads them (with OpenImageIO, loaded on first use:
+// image_codec.h).
 #pragma once
 
 #include "sim/image.h"
@@ -28,7 +29,10 @@ struct PictureView {
 ///   .png              u8 or u16, 1 or 3 channels; fast compression (level 1)
 ///   .tif, .tiff       u8, u16 or f32, 1 or 3 channels; uncompressed
 ///   .pgm, .ppm, .pnm  u8, 1 or 3 channels
-///   .exr              f32, any channels; a name such as "projector.u" is channel u of layer projector
+///   .exr              any channels, ZIP; a name such as "projector.u" is channel u of layer projector. f32
+///   as
+///                     floats; u8 as half and u16 as single floats of the same whole numbers: half is exact
+///                     to 2048, single to 2²⁴, and every reader of EXR knows both, unlike its 32-bit integers
 ///
 /// The values are written as they are: nothing is scaled or gamma-encoded. Throws InputError, naming the
 /// path, for another extension, for a picture that the format does not hold, an empty one, or where writing
@@ -41,20 +45,37 @@ void write_picture(const std::filesystem::path& path, const Image<glm::u8vec3>& 
 void write_picture(const std::filesystem::path& path, const Image<glm::u16vec3>& rgb);
 void write_picture(const std::filesystem::path& path, const Image<glm::vec3>& rgb);
 
+/// Writes pages, in order, as one uncompressed TIFF file; otherwise as write_picture. Pages go to disk one by
+/// one: no second copy is made in memory. Throws InputError as write_picture does, and for more than 4 GB, no
+/// pages, and where fewer pages arrived than were sent.
+void write_pages(const std::filesystem::path& path, const std::vector<PictureView>& pages);
+
 /// A picture as it was read, in a PictureView's order. The values are those of the file, except that half
 /// floats become floats, palettes colours, and a PNM with a smaller maximum is stretched to full scale.
 struct Picture {
   int width = 0, height = 0;
   std::vector<std::string> channel_names;
   std::variant<std::vector<std::uint8_t>, std::vector<std::uint16_t>, std::vector<float>> values;
+  bool half = false;  ///< whether the floats stand in the file in half precision
 };
 
 /// Reads any picture that OpenImageIO knows. Every reader of this page throws InputError, naming the path,
 /// where the file is missing, is no picture, is cut short, or where its header claims no pixels, more than
 /// 2³⁰, or more values than a file of its size can hold (checked before anything is allocated).
-Picture read_picture(const std::filesystem::path& path);
+/// `page` counts from 0 (the parts of a multi-part EXR are pages too).
+Picture read_picture(const std::filesystem::path& path, int page = 0);
+
+/// How many pages a picture file has. Throws as read_picture; the size check holds for all pages together.
+int count_pages(const std::filesystem::path& path);
+
+/// Writes what a camera took: one file per picture, encoded in parallel, or, where `files` is one .tif file,
+/// one page per picture. Throws InputError as write_picture and write_pages do, and for another number of
+/// files.
+void write_stack(const std::vector<std::filesystem::path>& files, const CapturedStack& stack);
 
 /// Reads what a camera took: pictures of 8 or of 16 bits, all of the same size and depth, in the given order.
+/// A list of one file means each of its pages; of several files, the first page counts. Floats must be whole
+/// numbers of the camera's scale: in half precision of 8 bits, in single of 16, as write_picture leaves them.
 /// Colour becomes grey as the rounded mean of R, G and B, which for equal channels is that value; alpha is
 /// ignored. Throws InputError that names the picture ("picture 7 of 42 is missing: …") where one is missing
 /// or unreadable, has another size or depth than the first, is of neither 8 nor 16 bits, or where the list is

@@ -1,15 +1,11 @@
-// Stacks, linear light and layers, made of read_picture and write_picture.
+// Linear light and layers, made of read_picture and write_picture.
 #include "sim/error.h"
 #include "sim/image_file.h"
-#include "sim/parallel.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <exception>
-#include <functional>
 
 namespace laterna {
 
@@ -28,77 +24,6 @@ std::size_t colours_of(const fs::path& path, std::size_t channels) {
            fmt::format("has {} channels, expected 1 to 4 (grey or RGB, with or without alpha)", channels));
   return channels < 3 ? 1 : 3;
 }
-
-// ---- stacks
-
-int bits_of(const Picture& picture) {
-  constexpr std::array bits{8, 16, 0};
-  return bits.at(picture.values.index());
-}
-
-/// Throws where a picture cannot stand in one stack with the first.
-void validate_like(const Picture& first, const fs::path& path, const Picture& picture) {
-  if (picture.width != first.width || picture.height != first.height)
-    refuse(path, fmt::format("is {}×{} pixels, expected {}×{} as the first picture", picture.width,
-                             picture.height, first.width, first.height));
-  if (picture.values.index() != first.values.index())
-    refuse(path, fmt::format("holds {}, expected {} bits as the first picture",
-                             bits_of(picture) == 0 ? "floats" : fmt::format("{} bits", bits_of(picture)),
-                             bits_of(first)));
-}
-
-template <class T>
-void make_grey(const fs::path& path, const Picture& picture, std::span<T> grey) {
-  const std::size_t channels = picture.channel_names.size();
-  const bool colour = colours_of(path, channels) == 3;
-  const T* v = std::get<std::vector<T>>(picture.values).data();
-  for (T& value : grey) {
-    value = colour ? static_cast<T>((v[0] + v[1] + v[2] + 1) / 3) : v[0];
-    v += channels;
-  }
-}
-
-/// "picture 7 of 42: …" before what `action` has to say about picture k.
-void naming_picture(std::size_t k, std::size_t count, const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const InputError& error) {
-    throw InputError(fmt::format("picture {} of {}: {}", k + 1, count, error.what()));
-  }
-}
-
-/// Reads all pictures at the same time; of several faults the first picture's is thrown.
-template <class T>
-ImageStack<T> read_all(const std::vector<fs::path>& files, const Picture& first) {
-  ImageStack<T> stack(first.width, first.height, int(files.size()));
-  std::vector<std::exception_ptr> faults(files.size());
-  parallel_for(files.size(), [&](std::size_t k) {
-    try {
-      naming_picture(k, files.size(), [&] {
-        const Picture picture = k == 0 ? first : read_picture(files[k]);
-        validate_like(first, files[k], picture);
-        make_grey(files[k], picture, stack.picture(int(k)));
-      });
-    } catch (...) {
-      faults[k] = std::current_exception();
-    }
-  });
-  for (const std::exception_ptr& fault : faults)
-    if (fault) std::rethrow_exception(fault);
-  return stack;
-}
-
-void expect_all_present(const std::vector<fs::path>& files) {
-  if (files.empty()) throw InputError("no pictures, expected at least one");
-  for (std::size_t k = 0; k < files.size(); ++k) {
-    std::error_code ignored;
-    if (!fs::exists(files[k], ignored))
-      throw InputError(
-          fmt::format("picture {} of {} is missing: {}", k + 1, files.size(), files[k].string()));
-  }
-}
-
-// ---- linear light
 
 float linear_from_srgb(float encoded) {
   return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
@@ -120,17 +45,6 @@ std::vector<float> linear_values(const Picture& picture, Encoding encoding) {
 }
 
 }  // namespace
-
-CapturedStack read_stack(const std::vector<fs::path>& files) {
-  expect_all_present(files);
-  Picture first;
-  naming_picture(0, files.size(), [&] {
-    first = read_picture(files[0]);
-    if (bits_of(first) == 0) refuse(files[0], "holds floats, expected 8 or 16 bits");
-  });
-  if (bits_of(first) == 8) return read_all<std::uint8_t>(files, first);
-  return read_all<std::uint16_t>(files, first);
-}
 
 Image<glm::vec3> read_rgb_float(const fs::path& path, Encoding encoding) {
   const Picture picture = read_picture(path);

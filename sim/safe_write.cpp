@@ -34,14 +34,19 @@ fs::path partial_path(const fs::path& path) {
   return path.parent_path() / (partial_prefix(path) + std::to_string(::getpid()));
 }
 
-/// A file descriptor that closes itself, and a file that removes itself unless kept.
+/// A file descriptor that closes itself, and a file beside the final one that removes itself unless kept.
 struct TemporaryFile {
   fs::path path;
   int descriptor = -1;
 
-  explicit TemporaryFile(fs::path where)
-      : path(std::move(where)),
-        descriptor(::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW, 0666)) {}
+  explicit TemporaryFile(const fs::path& final_path) : path(partial_path(final_path)) {
+    std::error_code ignored;
+    const fs::file_status status = fs::status(final_path, ignored);
+    if (fs::exists(status) && !fs::is_regular_file(status))
+      refuse(final_path, "it is there and is no regular file");
+    descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW, 0666);
+    if (descriptor < 0) refuse(final_path, reason_of(errno));
+  }
   TemporaryFile(const TemporaryFile&) = delete;
   TemporaryFile& operator=(const TemporaryFile&) = delete;
   ~TemporaryFile() {
@@ -61,6 +66,19 @@ int write_all(int descriptor, std::string_view bytes) {
     bytes.remove_prefix(std::size_t(written));
   }
   return 0;
+}
+
+/// Waits until the disk has all; gives the file's size.
+std::size_t sync(const TemporaryFile& file, const fs::path& path) {
+  struct stat written {};
+  if (::fsync(file.descriptor) != 0 || ::fstat(file.descriptor, &written) != 0)
+    refuse(path, reason_of(errno));
+  return std::size_t(written.st_size);
+}
+
+void put_in_place(TemporaryFile& file, const fs::path& path) {
+  if (file.close() != 0 || ::rename(file.path.c_str(), path.c_str()) != 0) refuse(path, reason_of(errno));
+  file.keep();
 }
 
 /// Makes the names inside a folder last. Some file systems cannot sync a folder; that is no fault of the
@@ -108,24 +126,18 @@ int rename_to_new(const fs::path& from, const fs::path& to) {
 }  // namespace
 
 void write_file(const fs::path& path, std::string_view bytes) {
-  std::error_code ignored;
-  const fs::file_status status = fs::status(path, ignored);
-  if (fs::exists(status) && !fs::is_regular_file(status)) refuse(path, "it is there and is no regular file");
-  TemporaryFile file(partial_path(path));
-  if (file.descriptor < 0) {
-    const int error = errno;
-    file.keep();  // nothing was made
-    refuse(path, reason_of(error));
-  }
+  TemporaryFile file(path);
   if (const int error = write_all(file.descriptor, bytes)) refuse(path, reason_of(error));
-  if (::fsync(file.descriptor) != 0) refuse(path, reason_of(errno));
-  struct stat written {};
-  if (::fstat(file.descriptor, &written) != 0) refuse(path, reason_of(errno));
-  if (std::size_t(written.st_size) != bytes.size())
-    refuse(path, fmt::format("{} bytes arrived, expected {}", written.st_size, bytes.size()));
-  if (file.close() != 0) refuse(path, reason_of(errno));
-  if (::rename(file.path.c_str(), path.c_str()) != 0) refuse(path, reason_of(errno));
-  file.keep();
+  if (const std::size_t arrived = sync(file, path); arrived != bytes.size())
+    refuse(path, fmt::format("{} bytes arrived, expected {}", arrived, bytes.size()));
+  put_in_place(file, path);
+}
+
+void write_file(const fs::path& path, const std::function<void(const fs::path&)>& fill) {
+  TemporaryFile file(path);
+  fill(file.path);
+  sync(file, path);
+  put_in_place(file, path);
 }
 
 PendingFolder::PendingFolder(const fs::path& final_path) {

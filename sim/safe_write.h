@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string_view>
 
 namespace laterna {
@@ -12,6 +13,11 @@ namespace laterna {
 /// reason ("No space left on device"), and leaves no temporary file, where any of that fails or where `path`
 /// is there and is no regular file.
 void write_file(const std::filesystem::path& path, std::string_view bytes);
+
+/// The same for a library that writes a file itself: `fill` is given the temporary file's path, and throws
+/// where it fails.
+void write_file(const std::filesystem::path& path,
+                const std::function<void(const std::filesystem::path& temporary)>& fill);
 
 /// A folder that appears under its final name only when it is whole.
 ///

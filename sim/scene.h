@@ -53,8 +53,9 @@ struct Camera {
   Sensor sensor;
   Vignetting vignetting{};
   std::shared_ptr<const Image<float>> vignetting_map{};  ///< empty where `vignetting` has none
-  int samples_per_pixel = 1;                             ///< rays, with antialiasing
-  ColourFilter colour_filter = ColourFilter::mono;       ///< with colour
+  int samples_per_pixel = 1;  ///< rays, with antialiasing, camera_defocus or diffraction
+  Optics optics{};
+  ColourFilter colour_filter = ColourFilter::mono;  ///< with colour
   double veiling_glare = 0;  ///< share of the light that the lens scatters over the image
 };
 

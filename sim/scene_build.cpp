@@ -191,6 +191,13 @@ void name_devices(std::vector<Spec>& devices, const char* kind) {
   }
 }
 
+void switch_off_lenses(Scene& scene) {
+  if (!scene.effects.projector_lens)
+    for (Projector& projector : scene.projectors) projector.device.lens = {};
+  if (!scene.effects.camera_lens)
+    for (Camera& camera : scene.cameras) camera.device.lens = {};
+}
+
 std::string mesh_name(const MeshSpec& mesh) {
   if (mesh.file.empty()) return mesh.shape;
   std::filesystem::path stem = std::filesystem::path(mesh.file).filename();
@@ -298,8 +305,9 @@ Scene build_scene(const SceneSpec& spec, const std::filesystem::path& folder) {
     check(c);
     scene.cameras.push_back({device_of(c.device, folder, what), c.sensor, c.vignetting,
                              about(what, [&] { return vignetting_map(c.vignetting, folder); }),
-                             c.samples_per_pixel, c.colour_filter, c.veiling_glare});
+                             c.samples_per_pixel, c.optics, c.colour_filter, c.veiling_glare});
   }
+  switch_off_lenses(scene);
   if (spec.effects.slide)
     scene.slide = about("[patterns]", [&] { return build_slide(spec.patterns, folder); });
   for (const ColourSpec& c : named.colours) scene.mixings.push_back(build_mixing(c, named));

@@ -110,6 +110,37 @@ void describe(Visitor& visit, Scaler& scaler) {
 }
 
 template <class Visitor>
+void describe(Visitor& visit, Optics& optics) {
+  visit(Field{.key = "aperture_m",
+              .unit = "m",
+              .sentence = "Diameter of the lens's opening, for `camera_defocus`, `projector_defocus` and "
+                          "`diffraction`.",
+              .low = 0,
+              .high = 10,
+              .low_excluded = true},
+        optics.aperture_m);
+  visit(Field{.key = "focus_m",
+              .unit = "m",
+              .sentence = "Axial depth of the plane that is sharp.",
+              .low = 0,
+              .high = farthest_m,
+              .low_excluded = true},
+        optics.focus_m);
+  visit(Field{.key = "wavelength_m",
+              .unit = "m",
+              .sentence = "Of the light, for `diffraction`.",
+              .low = 1e-7,
+              .high = 1e-5},
+        optics.wavelength_m);
+  visit(Field{.key = "fill_factor",
+              .sentence = "Share of a pixel's area that is active: a square about its centre.",
+              .low = 0,
+              .high = 1,
+              .low_excluded = true},
+        optics.fill_factor);
+}
+
+template <class Visitor>
 void describe(Visitor& visit, ProjectorEffects& effects) {
   visit(Field{.key = "vignetting", .sentence = "What share of the light the lens passes."},
         effects.vignetting);
@@ -144,6 +175,7 @@ void describe(Visitor& visit, ProjectorEffects& effects) {
               .low = 0,
               .high = 1},
         effects.veiling_glare);
+  describe(visit, effects.optics);
 }
 
 template <class Visitor>
@@ -529,10 +561,13 @@ void describe(Visitor& visit, CameraSpec& camera) {
   visit(Field{.key = "vignetting", .sentence = "What share of the light the lens passes."},
         camera.vignetting);
   visit(Field{.key = "samples_per_pixel",
-              .sentence = "With `antialiasing`: a pixel is the mean of this many rays, spread over its area.",
+              .sentence = "A pixel is the mean of this many rays, spread over its area (with "
+                          "`antialiasing`), the aperture (`camera_defocus`) and the Airy pattern "
+                          "(`diffraction`).",
               .low = 1,
               .high = most_samples_per_pixel},
         camera.samples_per_pixel);
+  describe(visit, camera.optics);
   visit(Field{.key = "colour_filter",
               .sentence = "With `colour`: before each pixel. A Bayer camera's pictures are the raw mosaic."},
         camera.colour_filter);

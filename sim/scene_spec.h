@@ -77,6 +77,7 @@ struct CameraSpec {
   Sensor sensor{};
   Vignetting vignetting{};
   int samples_per_pixel = Camera{}.samples_per_pixel;
+  Optics optics{};
   ColourFilter colour_filter = Camera{}.colour_filter;
   double veiling_glare = Camera{}.veiling_glare;
   bool operator==(const CameraSpec&) const = default;

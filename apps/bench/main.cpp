@@ -1,9 +1,13 @@
 // laterna-bench: what the hot stages cost, beside what the machine can do, measured in one run.
+#include "apps/bench/picture_ratio.h"
 #include "apps/bench/replay_ratio.h"
 #include "apps/bench/stage_ratio.h"
+#include "sim/error.h"
+#include "sim/instruction_sets.h"
 #include "sim/parallel.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
@@ -16,20 +20,8 @@ namespace {
 struct Options {
   bool json = false;
   int repeats = 9, threads = 2, triangles = 100000;
+  std::string isa;
 };
-
-// The instruction set that the clones of the hot loops run on.
-std::string isa() {
-#if defined(__x86_64__)
-  if (__builtin_cpu_supports("avx512f")) return "avx512f";
-  if (__builtin_cpu_supports("avx2")) return "avx2";
-  return "sse2";
-#elif defined(__aarch64__)
-  return "neon";
-#else
-  return "unknown";
-#endif
-}
 
 // The bare calls that are fastest here are the measure.
 VisibilityTimes against_the_best(const Scene& scene, int repeats) {
@@ -40,10 +32,12 @@ VisibilityTimes against_the_best(const Scene& scene, int repeats) {
 
 nlohmann::ordered_json measure(const Options& options) {
   set_thread_count(options.threads);
+  cap_instruction_set(options.isa);
   const Scene scene = bench_scene(options.triangles);
   const VisibilityTimes visibility = against_the_best(scene, options.repeats);
   const ReplayTimes replay = time_replay(scene, options.repeats);
   const StackTimes stack = time_stack(scene, std::max(1, options.repeats / 3));
+  const PictureTimes pictures = time_pictures(std::max(1, options.repeats / 3));
   return {{"visibility_over_embree", visibility.ratio},
           {"replay_bilinear_over_fill", replay.bilinear_over_fill},
           {"replay_binary_over_fill", replay.binary_over_fill},
@@ -53,8 +47,11 @@ nlohmann::ordered_json measure(const Options& options) {
           {"stack44_seconds", stack.one},
           {"stack44_spp16_seconds", stack.sixteen},
           {"roundtrip_seconds", time_roundtrip(scene, std::max(1, options.repeats / 3))},
+          {"write_png44_over_copy", pictures.png_over_copy},
+          {"write_tif44_over_copy", pictures.tif_over_copy},
+          {"write_tif_pages44_over_copy", pictures.pages_over_copy},
           {"threads", thread_count()},
-          {"isa", isa()},
+          {"isa", instruction_set()},
           {"fill_seconds", replay.fill},
           {"visibility_seconds", visibility.visibility}};
 }
@@ -70,8 +67,17 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--threads", options.threads)->check(CLI::Range(1, 1024))->capture_default_str();
   app.add_option("--triangles", options.triangles)->check(CLI::Range(2, 10000000))->capture_default_str();
+  app.add_option(
+      "--isa", options.isa,
+      fmt::format("use no more than this instruction set: {}", fmt::join(instruction_set_names(), ", ")));
   CLI11_PARSE(app, argc, argv);
-  const nlohmann::ordered_json result = measure(options);
+  nlohmann::ordered_json result;
+  try {
+    result = measure(options);
+  } catch (const InputError& error) {
+    fmt::print(stderr, "laterna-bench: {}\n", error.what());
+    return 2;
+  }
   if (options.json) {
     fmt::print("{}\n", result.dump());
     return 0;

@@ -2,6 +2,7 @@
 
 #include "apps/bench/timing.h"
 #include "render/direct_light.h"
+#include "sim/instruction_sets.h"
 #include "sim/parallel.h"
 #include "sim/shapes.h"
 
@@ -76,7 +77,7 @@ ReadyRays make_ready(const Scene& scene, const RayScene& rays) {
 
 // A scene in Embree's hands alone.
 struct BareScene {
-  RTCDevice device = rtcNewDevice(nullptr);
+  RTCDevice device = rtcNewDevice(embree_configuration().c_str());
   RTCScene scene = rtcNewScene(device);
 
   BareScene(const Scene& source, const glm::dvec3& center, bool robust) {

@@ -1,7 +1,9 @@
 #include "apps/lab/capture_writer.h"
 
 #include "apps/lab/matrices.h"
+#include "apps/lab/truth_picture.h"
 #include "render/effects/scaler.h"
+#include "render/trace_rows.h"
 #include "sim/capture_folder.h"
 #include "sim/error.h"
 #include "sim/image_file.h"
@@ -10,109 +12,121 @@
 #include "sim/self_contained.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
 
 namespace laterna {
 
 namespace {
 
+constexpr std::array formats{"png", "tif", "pgm", "exr", "tif-pages"};
+
+void check_format(const std::string& format, const Scene& scene) {
+  if (std::find(formats.begin(), formats.end(), format) == formats.end())
+    throw InputError(fmt::format("--format: found \"{}\", expected {}", format, fmt::join(formats, ", ")));
+  for (const Camera& camera : scene.cameras) {
+    if (format == "pgm" && camera.sensor.bit_depth > 8)
+      throw InputError(
+          fmt::format("--format: pgm holds 8 bits, but camera \"{}\" has {}; expected another format",
+                      camera.device.name, camera.sensor.bit_depth));
+  }
+}
+
+/// The files of one sequence, relative to the folder.
+std::vector<std::string> file_names(const std::string& folder, const std::string& format, int pictures) {
+  if (format == "tif-pages") return {folder + "/pages.tif"};
+  std::vector<std::string> names;
+  for (int k = 0; k < pictures; ++k) names.push_back(fmt::format("{}/{:02}.{}", folder, k, format));
+  return names;
+}
+
 void write_pictures(const std::filesystem::path& root, const CapturedStack& stack,
                     const std::vector<std::string>& names) {
-  std::visit(
-      [&](const auto& pictures) {
-        using Value = typename std::decay_t<decltype(pictures)>::value_type;
-        parallel_for(names.size(), [&](std::size_t k) {
-          const PixelType type = sizeof(Value) == 1 ? PixelType::u8 : PixelType::u16;
-          write_picture(root / names[k],
-                        {pictures.picture(int(k)).data(), pictures.width, pictures.height, 1, type, {"Y"}});
-        });
-      },
-      stack);
+  std::vector<std::filesystem::path> files;
+  for (const std::string& name : names) files.push_back(root / name);
+  write_stack(files, stack);
 }
 
 int count_of(const CapturedStack& stack) {
   return std::visit([](const auto& pictures) { return pictures.count; }, stack);
 }
 
-CaptureSequence describe(const Scene& scene, const View& view, const std::string& format, int pictures,
-                         bool truth) {
-  const Camera& camera = scene.cameras[view.camera];
-  const Device& projector = scene.projectors[view.projector].device;
+CaptureSequence describe(const Scene& scene, int camera_index, int projector_index,
+                         double saturation_cd_per_m2, const CaptureOptions& options, int pictures) {
+  const Camera& camera = scene.cameras[camera_index];
+  const Device& projector = scene.projectors[projector_index].device;
   CaptureSequence s;
   s.camera = camera.device.name;
   s.projector = projector.name;
   s.camera_size = camera.device.intrinsics.size;
-  s.projector_size = input_size(scene.effects, scene.projectors[view.projector]);
+  s.projector_size = input_size(scene.effects, scene.projectors[projector_index]);
   s.bit_depth = camera.sensor.bit_depth;
-  s.saturation_cd_per_m2 = view.saturation_cd_per_m2;
+  s.saturation_cd_per_m2 = saturation_cd_per_m2;
   if (camera.sensor.kind == SensorKind::emva1288)
-    s.exposure_time_s = exposure_time_s(camera.sensor, view.saturation_cd_per_m2);
-  for (int k = 0; k < pictures; ++k)
-    s.pictures.push_back(fmt::format("{}/{}/{:02}.{}", s.camera, s.projector, k, format));
-  if (truth) s.truth = fmt::format("truth/{}_{}.exr", s.camera, s.projector);
+    s.exposure_time_s = exposure_time_s(camera.sensor, saturation_cd_per_m2);
+  s.pictures = file_names(s.camera + "/" + s.projector, options.format, pictures);
+  if (options.truth) s.truth = fmt::format("truth/{}_{}.exr", s.camera, s.projector);
   return s;
+}
+
+// Pictures of less than that are written beside the truth, larger ones before it: memory holds one of the
+// two.
+constexpr std::size_t small_stack_bytes = std::size_t{128} << 20;
+
+std::size_t bytes_of(const CapturedStack& stack) {
+  return std::visit([](const auto& s) { return s.values.size() * sizeof(s.values[0]); }, stack);
+}
+
+// One view to disk.
+CaptureSequence write_view(const Scene& scene, const Rig& rig, int camera, int projector,
+                           const std::filesystem::path& root, const CaptureOptions& options,
+                           StageTimes& times, const Progress& progress) {
+  const double saturation = saturation_cd_per_m2(scene, rig, camera, projector, times);
+  CapturedStack stack =
+      capture_rows(scene, camera, projector,
+                   rig_rows(scene, rig, camera, projector, samples_of(scene, camera, options.seed)),
+                   saturation, options.seed, times);
+  const CaptureSequence sequence = describe(scene, camera, projector, saturation, options, count_of(stack));
+  if (progress) {
+    progress(
+        fmt::format("writing {} pictures of \"{}\" by \"{}\", exposed so that {:.4g} cd/m² fill the scale",
+                    count_of(stack), sequence.projector, sequence.camera, saturation));
+  }
+  std::filesystem::create_directories(root / sequence.camera / sequence.projector);
+  const auto write = [&](bool pictures, bool truth) {
+    parallel_for(2, [&](std::size_t part) {
+      if (part == 0 && pictures) write_pictures(root, stack, sequence.pictures);
+      if (part == 1 && truth) write_truth(root / sequence.truth, scene, rig, camera, projector);
+    });
+  };
+  times.measure("write", [&] {
+    if (bytes_of(stack) <= small_stack_bytes) return write(true, options.truth);
+    write(true, false);
+    stack = {};
+    write(false, options.truth);
+  });
+  return sequence;
 }
 
 }  // namespace
 
-void write_truth(const std::filesystem::path& path, const Traced& traced, const View& view) {
-  const std::vector<std::string> names{"projector.u", "projector.v", "projector.lit", "depth.m",
-                                       "normal.x",    "normal.y",    "normal.z",      "world.x",
-                                       "world.y",     "world.z",     "object.id"};
-  const SurfaceMap& surface = traced.surfaces[view.camera];
-  const LightMap& light = view.light;
-  const PixelArray<glm::dvec3>& points = traced.points_world[view.camera];
-  const PixelArray<glm::dvec3> normals = normals_world(surface, traced.rays);
-  const std::size_t channels = names.size(), pixels = std::size_t(surface.width) * surface.height;
-  std::vector<float> data(pixels * channels);
-  parallel_for(std::size_t(surface.height), [&](std::size_t y) {
-    for (std::size_t i = y * surface.width; i < (y + 1) * surface.width; ++i) {
-      const glm::dvec3 n = normals.values[i], x = points.values[i];
-      const double row[] = {light.u_px.values[i],
-                            light.v_px.values[i],
-                            double(light.lit(i)),
-                            surface.depth_m.values[i],
-                            n.x,
-                            n.y,
-                            n.z,
-                            x.x,
-                            x.y,
-                            x.z,
-                            surface.hit(i) ? double(surface.object.values[i]) : -1.0};
-      for (std::size_t c = 0; c < channels; ++c) data[i * channels + c] = float(row[c]);
-    }
-  });
-  write_picture(path, {data.data(), surface.width, surface.height, int(channels), PixelType::f32, names});
-}
-
 void write_capture(const SceneSpec& spec, const Scene& scene, const std::filesystem::path& folder,
                    const std::filesystem::path& target, const CaptureOptions& options, StageTimes& times,
                    const Progress& progress) {
-  if (options.format != "png" && options.format != "tif" && options.format != "pgm") {
-    throw InputError(fmt::format("--format: found \"{}\", expected png, tif or pgm", options.format));
-  }
+  check_format(options.format, scene);
   PendingFolder pending(target);
   const std::filesystem::path root = pending.path();
-  const Traced traced = trace(scene, times, progress);
+  const Rig rig = make_rig(scene, times);
   write_self_contained(spec, scene, folder, root);
   write_file(root / "matrices.json", matrices_json(scene).dump(2) + "\n");
   CaptureManifest manifest{"scene.toml", options.seed, "matrices.json", {}};
   if (options.truth) std::filesystem::create_directory(root / "truth");
-  for (const View& view : traced.views) {
-    const CapturedStack stack = capture_view(scene, traced, view, options.seed, times);
-    const CaptureSequence sequence = describe(scene, view, options.format, count_of(stack), options.truth);
-    if (progress) {
-      progress(fmt::format(
-          "writing {} pictures of \"{}\" by \"{}\", exposed so that {:.4g} cd/m² fill the scale",
-          sequence.pictures.size(), sequence.projector, sequence.camera, view.saturation_cd_per_m2));
-    }
-    times.measure("write", [&] {
-      std::filesystem::create_directories(root / sequence.camera / sequence.projector);
-      write_pictures(root, stack, sequence.pictures);
-      if (options.truth) write_truth(root / sequence.truth, traced, view);
-    });
-    manifest.sequences.push_back(sequence);
-  }
+  for (int camera = 0; camera < int(scene.cameras.size()); ++camera)
+    for (int projector = 0; projector < int(scene.projectors.size()); ++projector)
+      manifest.sequences.push_back(write_view(scene, rig, camera, projector, root, options, times, progress));
   write_file(root / "manifest.json", manifest_json(manifest));
   pending.commit();
 }

@@ -10,7 +10,7 @@ namespace laterna {
 
 struct CaptureOptions {
   std::uint64_t seed = 1;
-  std::string format = "png";  ///< png, tif or pgm
+  std::string format = "png";  ///< png, tif, pgm, exr or tif-pages; see sim/capture_folder.h
   bool truth = true;           ///< per camera pixel, as multi-layer EXR in single precision
 };
 
@@ -20,10 +20,5 @@ struct CaptureOptions {
 void write_capture(const SceneSpec& spec, const Scene& scene, const std::filesystem::path& folder,
                    const std::filesystem::path& target, const CaptureOptions& options, StageTimes& times,
                    const Progress& progress = {});
-
-/// The truth of one view, one layer each, float: projector.u, projector.v (px, NaN where the point is behind
-/// the projector or nothing is seen), projector.lit (1 or 0), depth.m (axial, NaN where nothing is seen),
-/// normal.x, .y, .z (world), world.x, .y, .z (m), object.id (-1: none).
-void write_truth(const std::filesystem::path& path, const Traced& traced, const View& view);
 
 }  // namespace laterna

@@ -48,10 +48,36 @@ ImageRows direct_view_rows(const Scene& scene, const Traced& traced, const View&
 
 }  // namespace
 
-Traced trace(const Scene& scene, StageTimes& times, const Progress& progress) {
+Rig make_rig(const Scene& scene, StageTimes& times) {
   if (scene.projectors.empty()) throw InputError("the scene has no [[projector]], expected at least one");
   if (scene.cameras.empty()) throw InputError("the scene has no [[camera]], expected at least one");
-  Traced traced{times.measure("build", [&] { return RayScene(scene); }), {}, {}, {}, {}};
+  Rig rig{times.measure("build", [&] { return RayScene(scene); }), {}};
+  times.measure("surface", [&] {
+    for (const Camera& camera : scene.cameras) rig.directions.emplace_back(camera.device);
+  });
+  return rig;
+}
+
+ImageRows rig_rows(const Scene& scene, const Rig& rig, int camera, int projector,
+                   const PixelSamples& samples) {
+  const CameraRays& directions = rig.directions[camera];
+  return {{directions.width(), directions.height()},
+          trace_rows(rig.rays, scene, camera, directions, projector, samples)};
+}
+
+double saturation_cd_per_m2(const Scene& scene, const Rig& rig, int camera, int projector,
+                            StageTimes& times) {
+  const std::optional<double> fixed = fixed_saturation_cd_per_m2(scene.cameras[camera].sensor);
+  if (fixed) return *fixed;
+  const CameraRays& directions = rig.directions[camera];
+  const ImageRows direct{{directions.width(), directions.height()},
+                         apply_colour(trace_rows(rig.rays, scene, camera, directions, projector), scene,
+                                      camera, projector, false)};
+  return times.measure("exposure", [&] { return automatic_saturation_cd_per_m2({&direct, 1}); });
+}
+
+Traced trace(const Scene& scene, StageTimes& times, const Progress& progress) {
+  Traced traced{make_rig(scene, times), {}, {}, {}};
   const RayScene& rays = traced.rays;
   for (int c = 0; c < int(scene.cameras.size()); ++c) {
     const Camera& camera = scene.cameras[c];
@@ -60,10 +86,8 @@ Traced trace(const Scene& scene, StageTimes& times, const Progress& progress) {
                            camera.device.intrinsics.size.x, camera.device.intrinsics.size.y,
                            camera.device.name, scene.projectors.size()));
     }
-    traced.surfaces.push_back(times.measure("surface", [&] {
-      traced.directions.emplace_back(camera.device);
-      return trace_surface(rays, scene, camera, traced.directions.back());
-    }));
+    traced.surfaces.push_back(
+        times.measure("surface", [&] { return trace_surface(rays, scene, camera, traced.directions[c]); }));
     traced.points_world.push_back(
         times.measure("surface", [&] { return points_world(traced.surfaces[c], scene); }));
     std::vector<LightMap> lights;
@@ -87,10 +111,7 @@ Traced trace(const Scene& scene, StageTimes& times, const Progress& progress) {
 
 ImageRows view_rows(const Scene& scene, const Traced& traced, const View& view, std::uint64_t seed) {
   if (rows_are_direct(scene, view.camera)) return direct_view_rows(scene, traced, view);
-  const CameraRays& directions = traced.directions[view.camera];
-  return {{directions.width(), directions.height()},
-          trace_rows(traced.rays, scene, view.camera, directions, view.projector,
-                     samples_of(scene, view.camera, seed))};
+  return rig_rows(scene, traced, view.camera, view.projector, samples_of(scene, view.camera, seed));
 }
 
 CapturedStack capture_rows(const Scene& scene, int camera, int projector, const ImageRows& rows,
@@ -100,33 +121,21 @@ CapturedStack capture_rows(const Scene& scene, int camera, int projector, const 
                                           {seed, std::uint32_t(camera), std::uint32_t(projector)});
   const CameraShow played =
       times.measure("patterns", [&] { return make_camera_show(scene, camera, projector, rows); });
-  return times.measure("capture",
-                       [&] { return play_stack(played.rows, source.lookup, played.show(), exposure); });
-}
-
-namespace {
-
-// The view's pictures after the rig has moved, at the same exposure.
-CapturedStack capture_moved(const Scene& scene, const View& before, std::uint64_t seed, StageTimes& times) {
+  CapturedStack stack = times.measure(
+      "capture", [&] { return play_stack(played.rows, source.lookup, played.show(), exposure); });
+  if (!moves(scene, camera, projector)) return stack;
   const Scene moved = after_move(scene);
-  Traced traced = trace(moved, times);
-  for (View& view : traced.views) {
-    if (view.camera != before.camera || view.projector != before.projector) continue;
-    view.saturation_cd_per_m2 = before.saturation_cd_per_m2;
-    return capture_view(moved, traced, view, seed, times);
-  }
-  throw std::logic_error("the moved scene has the views of the scene");
+  const Rig rig = make_rig(moved, times);
+  const ImageRows moved_rows = rig_rows(moved, rig, camera, projector, samples_of(moved, camera, seed));
+  splice(stack, capture_rows(moved, camera, projector, moved_rows, saturation_cd_per_m2, seed, times),
+         scene.timing.moved.from_picture);
+  return stack;
 }
-
-}  // namespace
 
 CapturedStack capture_view(const Scene& scene, const Traced& traced, const View& view, std::uint64_t seed,
                            StageTimes& times) {
-  CapturedStack stack = capture_rows(scene, view.camera, view.projector, view_rows(scene, traced, view, seed),
-                                     view.saturation_cd_per_m2, seed, times);
-  if (moves(scene, view.camera, view.projector))
-    splice(stack, capture_moved(scene, view, seed, times), scene.timing.moved.from_picture);
-  return stack;
+  return capture_rows(scene, view.camera, view.projector, view_rows(scene, traced, view, seed),
+                      view.saturation_cd_per_m2, seed, times);
 }
 
 Overlap overlap(const Scene& scene, const Traced& traced, const View& view) {

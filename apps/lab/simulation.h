@@ -4,6 +4,7 @@
 
 #include "render/direct_light.h"
 #include "render/image_rows.h"
+#include "render/pixel_samples.h"
 #include "render/ray_scene.h"
 #include "render/surface.h"
 #include "sim/image.h"
@@ -42,11 +43,18 @@ struct View {
   double saturation_cd_per_m2 = 0;
 };
 
-/// What does not depend on the patterns: rays are traced once.
-struct Traced {
+/// A scene ready for rays, and the rays of its cameras.
+struct Rig {
   RayScene rays;
   std::vector<CameraRays> directions;  ///< one per camera
-  std::vector<SurfaceMap> surfaces;    ///< one per camera
+};
+
+/// Throws InputError where the scene has no projector or no camera.
+Rig make_rig(const Scene& scene, StageTimes& times);
+
+/// What does not depend on the patterns: rays are traced once.
+struct Traced : Rig {
+  std::vector<SurfaceMap> surfaces;  ///< one per camera
   std::vector<PixelArray<glm::dvec3>>
       points_world;         ///< one per camera: what each pixel sees, m; NaN where nothing
   std::vector<View> views;  ///< camera by camera, projector by projector
@@ -55,6 +63,13 @@ struct Traced {
 /// Traces every camera's surface and every projector's light on it, and chooses each view's exposure: the
 /// sensor's own, or automatic. Throws InputError where the scene has no projector or no camera.
 Traced trace(const Scene& scene, StageTimes& times, const Progress& progress = {});
+
+/// The rows of one view, with every effect of the scene, traced at each call: no map of the image is held.
+ImageRows rig_rows(const Scene& scene, const Rig& rig, int camera, int projector,
+                   const PixelSamples& samples);
+
+/// The luminance that fills the scale: the sensor's own, or automatic, from direct light at pixel centres.
+double saturation_cd_per_m2(const Scene& scene, const Rig& rig, int camera, int projector, StageTimes& times);
 
 /// The rows of one view, with every effect of the scene: from the maps where a pixel's row is the direct
 /// light at its centre, else traced anew at each call. `scene` and `traced` must outlive the result. `seed`
@@ -65,8 +80,8 @@ ImageRows view_rows(const Scene& scene, const Traced& traced, const View& view, 
 CapturedStack capture_view(const Scene& scene, const Traced& traced, const View& view, std::uint64_t seed,
                            StageTimes& times);
 
-/// Pictures of rows at hand, those of white light, with colour, camera glare and timing. `seed` draws the
-/// noise.
+/// Pictures of rows at hand, those of white light, with colour, camera glare and timing; where timing moves
+/// the rig, its moved rows are traced here. `seed` draws the noise.
 CapturedStack capture_rows(const Scene& scene, int camera, int projector, const ImageRows& rows,
                            double saturation_cd_per_m2, std::uint64_t seed, StageTimes& times);
 

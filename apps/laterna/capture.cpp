@@ -36,8 +36,10 @@ void add_capture(CLI::App& app, Common& common) {
   command->add_option("SCENE", words->scene, "Scene file (TOML)")->required();
   command->add_option("-o,--output", words->out, "New folder (none is needed with --explain)");
   command
-      ->add_option("--format", words->options.format,
-                   "Picture format: png, tif (fastest, uncompressed) or pgm")
+      ->add_option(
+          "--format", words->options.format,
+          "Picture format: png, tif (fastest, uncompressed), pgm (8 bits), exr, or tif-pages (one file "
+          "per sequence)")
       ->capture_default_str();
   command->add_flag("!--no-truth", words->options.truth, "Leaves out the truth per pixel");
   command->add_flag("--explain", words->explain,

@@ -15,6 +15,7 @@ enum ExitCode { exit_ok = 0, exit_internal = 1, exit_bad_input = 2, exit_refused
 struct Common {
   int threads = 0;
   bool json = false;
+  std::string isa;  ///< cap on the instruction set; empty: none
   std::uint64_t seed = 1;
   int exit_code = exit_ok;  ///< set by the subcommand that ran
 };
@@ -30,6 +31,7 @@ void add_project(CLI::App& app, Common& common);
 void add_preview(CLI::App& app, Common& common);
 void add_patterns(CLI::App& app, Common& common);
 void add_capture(CLI::App& app, Common& common);
+void add_render(CLI::App& app, Common& common);
 void add_decode(CLI::App& app, Common& common);
 void add_calibrate(CLI::App& app, Common& common);
 void add_verify(CLI::App& app, Common& common);

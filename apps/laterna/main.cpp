@@ -1,9 +1,11 @@
 #include "apps/laterna/command.h"
 
 #include "sim/error.h"
+#include "sim/instruction_sets.h"
 #include "sim/parallel.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -49,12 +51,18 @@ int run(int argc, char** argv) {
   app.add_option("--threads", common.threads, "Threads; 0: as many as the machine has")
       ->check(CLI::Range(0, 4096));
   app.add_option("--seed", common.seed, "Seed of everything random; the same seed gives the same bits");
+  app.add_option(
+      "--isa", common.isa,
+      fmt::format("Uses no more than this instruction set: {}", fmt::join(instruction_set_names(), ", ")));
   app.add_flag("--json", common.json, "Prints JSON for machines on standard output, and nothing else there");
   for (const auto add : {add_new, add_check, add_info, add_project, add_preview, add_patterns, add_capture,
-                         add_decode, add_calibrate, add_verify, add_roundtrip}) {
+                         add_render, add_decode, add_calibrate, add_verify, add_roundtrip}) {
     add(app, common);
   }
-  app.parse_complete_callback([&] { set_thread_count(common.threads); });
+  app.parse_complete_callback([&] {
+    set_thread_count(common.threads);
+    cap_instruction_set(common.isa);
+  });
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -3,6 +3,7 @@
 #include "render/effects/attenuation.h"
 #include "render/effects/gloss.h"
 #include "render/effects/normal_map.h"
+#include "render/effects/projector_defocus.h"
 #include "render/effects/response.h"
 #include "render/effects/scaler.h"
 #include "render/effects/slide.h"
@@ -42,6 +43,7 @@ void apply_light_effects(LightMap& light, const SurfaceMap& surface, const RaySc
   if (on.attenuation) apply_attenuation(light, geometry, projector);
   if (on.spotlight) apply_spotlight(light, geometry, projector);
   if (on.projector_vignetting) apply_projector_vignetting(light, geometry, projector);
+  if (on.projector_defocus) apply_projector_defocus(light, geometry, projector);
 }
 
 void apply_camera_effects(SurfaceMap& surface, const RayScene& rays, const Scene& scene,

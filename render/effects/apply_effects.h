@@ -12,9 +12,10 @@
 namespace laterna {
 
 /// What edits surfaces and weights, after trace_surface and trace_light: solid albedo; for each projector's
-/// light normal map, gloss, attenuation, spotlight, projector vignetting; then camera vignetting. `lights`
-/// has one per projector of the scene, in its order, all traced from `surface` as `camera` sees it. What is
-/// off leaves every bit as it was. Throws InputError where the counts differ.
+/// light normal map, gloss, attenuation, spotlight, projector vignetting, projector defocus (footprints);
+/// then camera vignetting. `lights` has one per projector of the scene, in its order, all traced from
+/// `surface` as `camera` sees it. What is off leaves every bit as it was. Throws InputError where the counts
+/// differ.
 void apply_effects(SurfaceMap& surface, std::span<LightMap> lights, const RayScene& rays, const Scene& scene,
                    const Camera& camera);
 

@@ -7,6 +7,7 @@
 #include "render/effects/slide.h"
 #include "render/effects/timing.h"
 
+#include <tuple>
 #include <utility>
 
 namespace laterna {
@@ -58,7 +59,8 @@ CameraShow make_camera_show(const Scene& scene, int camera, int projector, const
     std::tie(show.values, planes) = panel_stacks(scene, source);
   if (on.timing) {
     const int frames = show.values.empty() ? show.bits[0].count : show.values[0].count;
-    show.timeline = make_timeline(scene.timing, planes ? frames / 8 : frames, rows.size.y, planes);
+    show.timeline =
+        make_timeline(scene.timing, planes ? frames / bit_plane_count : frames, rows.size.y, planes);
   }
   if (glare > 0) add_camera_glare(show, glare, source);
   show.sources_per_stack = wheel && !coloured ? 3 : 1;

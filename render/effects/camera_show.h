@@ -1,5 +1,7 @@
-// What one camera sees a projector play: rows, patterns and timing together, with colour, camera glare and
-// timing in this order. Stage: replay.
+// What one camera sees a projector play: rows, patterns and timing together. Stage: replay.
+//
+// Patterns: scaler and response, then bit planes, then black level and veiling glare. Rows of white light:
+// camera glare, then colour. Last the timeline, which mixes frames into pictures.
 #pragma once
 
 #include "render/image_rows.h"

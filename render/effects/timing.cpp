@@ -15,8 +15,6 @@ namespace laterna {
 
 namespace {
 
-constexpr int plane_count = 8;
-
 // A part of a projector frame in which one thing is shown.
 struct Slot {
   double begin, end;  // within the frame
@@ -27,7 +25,7 @@ std::vector<Slot> slots_of(const Timing& timing, int primary, bool planes) {
   const double thirds = timing.colour_wheel ? 3 : 1, first = timing.colour_wheel ? primary / 3.0 : 0;
   if (!planes) return {{first, first + 1 / thirds, thirds}};
   std::vector<Slot> slots;
-  for (int shown = 0, bit = plane_count - 1; bit >= 0; shown += 1 << bit--)
+  for (int shown = 0, bit = bit_plane_count - 1; bit >= 0; shown += 1 << bit--)
     slots.push_back({first + shown / (255 * thirds), first + (shown + (1 << bit)) / (255 * thirds), thirds});
   return slots;
 }
@@ -108,14 +106,14 @@ bool has_greys(std::span<const PatternStack> stacks) {
 }
 
 PatternStack bit_planes(const PatternStack& patterns) {
-  PatternStack planes{patterns.width, patterns.height, plane_count * patterns.count, {}};
-  planes.values.resize(patterns.values.size() * plane_count);
+  PatternStack planes{patterns.width, patterns.height, bit_plane_count * patterns.count, {}};
+  planes.values.resize(patterns.values.size() * bit_plane_count);
   const std::size_t row = std::size_t(patterns.width) * patterns.count;
   parallel_for(std::size_t(patterns.height), [&](std::size_t y) {
     for (std::size_t i = y * row; i < (y + 1) * row; ++i) {
       const std::uint8_t code = code_of(patterns.light_of_value[patterns.values[i]]);
-      for (int plane = 0; plane < plane_count; ++plane)
-        planes.values[i * plane_count + plane] = (code >> (plane_count - 1 - plane)) & 1 ? 255 : 0;
+      for (int plane = 0; plane < bit_plane_count; ++plane)
+        planes.values[i * bit_plane_count + plane] = (code >> (bit_plane_count - 1 - plane)) & 1 ? 255 : 0;
     }
   });
   return planes;

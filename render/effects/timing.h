@@ -26,6 +26,9 @@
 
 namespace laterna {
 
+/// How many bits a panel's value has.
+inline constexpr int bit_plane_count = 8;
+
 /// Shares of pictures in the frames of `patterns` patterns, or, with `planes`, of their bit planes: frame 8p
 /// + i is bit 7 - i of pattern p. With a colour wheel source i shows primary i mod 3. Empty
 /// where picture k is pattern k. Throws InputError where

@@ -150,6 +150,25 @@ TEST(Command, TheSameSeedGivesTheSamePictures) {
   EXPECT_FALSE(picture("a") == picture("c"));
 }
 
+TEST(Command, EveryPictureFormatKeepsWhatIsDecoded) {
+  const ScratchFolder scratch;
+  write_text(scratch / "s.toml", small + "sensor = { bit_depth = 12 }\n");
+  std::string expected;
+  for (const std::string format : {"png", "tif", "exr", "tif-pages"}) {
+    const auto capture =
+        laterna("capture s.toml --no-truth -o " + format + " --format " + format, scratch.path());
+    ASSERT_EQ(capture.exit_code, 0) << capture.err;
+    ASSERT_EQ(laterna("decode " + format + " -o " + format + "_map", scratch.path()).exit_code, 0);
+    const std::string map = testing::read_text(scratch / (format + "_map/cam_left.exr"));
+    if (expected.empty()) expected = map;
+    EXPECT_TRUE(map == expected) << format;
+  }
+  EXPECT_EQ(listing(scratch / "tif-pages/cam/left"), "pages.tif ");
+  const auto pgm = laterna("capture s.toml -o pgm --format pgm", scratch.path());
+  EXPECT_EQ(pgm.exit_code, 2);
+  EXPECT_THAT(pgm.err, HasSubstr("pgm holds 8 bits, but camera \"cam\" has 12"));
+}
+
 TEST(Command, PatternsForARealProjector) {
   const ScratchFolder scratch;
   ASSERT_EQ(laterna("patterns --size 64x48 -o p", scratch.path()).exit_code, 0);

@@ -43,6 +43,8 @@ TEST(EffectChecks, ASwitchWithoutItsParametersNamesTheMissingKey) {
   expect("solid_albedo", "mesh", "solid");
   expect("response", "projector", "response_exponent");
   expect("black_level", "projector", "black_level");
+  expect("camera_defocus", "camera", "aperture_m (with focus_m)");
+  expect("projector_defocus", "projector", "aperture_m (with focus_m)");
   expect("camera_glare", "camera", "veiling_glare");
   EXPECT_THAT(error_of(scene + switch_on("colour")), HasSubstr("nothing has a colour"));
   EXPECT_THAT(error_of(scene + switch_on("timing")), HasSubstr("[timing] has no key"));
@@ -68,6 +70,32 @@ TEST(EffectChecks, ColourAndTimingNameDevicesOfTheScene) {
       build_scene(parse_scene(scene + pair("projector", "camera", "1, 2, 3, 4, 5, 6, 7, 8, 9"), "s"), {});
   ASSERT_EQ(built.mixings.size(), 1u);
   EXPECT_EQ(built.mixings[0].channels[1], glm::dvec3(4, 5, 6));
+}
+
+TEST(EffectChecks, BlurNeedsItsOpticsAndRays) {
+  const std::string scene = mesh + projector + camera, lens = "aperture_m = 0.007\nfocus_m = 0.5\n";
+  EXPECT_THAT(error_of(scene + switch_on("diffraction")), HasSubstr("no device has the key aperture_m"));
+  EXPECT_THAT(error_of(scene + switch_on("fill_factor")), HasSubstr("no device has one below 1"));
+  EXPECT_THAT(error_of(scene + lens + switch_on("camera_defocus")), HasSubstr("samples_per_pixel"));
+  EXPECT_THAT(error_of(scene + lens + switch_on("diffraction")), HasSubstr("samples_per_pixel"));
+  EXPECT_THAT(error_of(scene + "fill_factor = 0.5\n" + switch_on("fill_factor")),
+              HasSubstr("antialiasing is off"));
+  parse_scene(scene + lens + "samples_per_pixel = 4\nfill_factor = 0.5\n" + switch_on("camera_defocus") +
+                  "diffraction = true\nantialiasing = true\nfill_factor = true\n",
+              "s");
+}
+
+TEST(EffectChecks, ALensThatIsSwitchedOffIsAPinhole) {
+  const std::string lens = "lens = { model = \"LENSMODEL_OPENCV4\", parameters = [-0.1, 0, 0, 0] }\n";
+  const std::string text = mesh + projector + lens + camera + lens;
+  const auto load = [&](const std::string& effects) {
+    return build_scene(parse_scene(text + effects, "s"), {});
+  };
+  for (const Scene& scene :
+       {load(""), load("[effects]\ncamera_lens = false\n"), load("[effects]\nprojector_lens = false\n")}) {
+    EXPECT_EQ(is_pinhole(scene.cameras[0].device.lens), !scene.effects.camera_lens);
+    EXPECT_EQ(is_pinhole(scene.projectors[0].device.lens), !scene.effects.projector_lens);
+  }
 }
 
 TEST(EffectChecks, ASlidesThreeKeysGoTogether) {
@@ -103,7 +131,7 @@ TEST(EffectChecks, EveryKeySurvivesWritingAndReading) {
     scene.effects.*effect.on = !(scene.effects.*effect.on);
   }
   EXPECT_EQ(names.size(), all_effects.size());
-  EXPECT_EQ(defaults_on, 5);
+  EXPECT_EQ(defaults_on, 7);
   scene.patterns = {PatternKind::slide, "slide.png", Encoding::linear, {1, 0.5, 0.25}};
   scene.colours = {{"projector", "camera", {1, 0.1, 0, 0.2, 1, 0.2, 0, 0.1, 1}}};
   scene.timing = {3, 5, 2, 1.3, 0.2, 0.5, true, true, {"camera", 7, {0, 0.01, 0}, {0.001, 0, 0}}};
@@ -121,7 +149,9 @@ TEST(EffectChecks, EveryKeySurvivesWritingAndReading) {
       .response_exponent = 1.707,
       .response_table = {},
       .black_level = 0.0005,
-      .veiling_glare = 0.03};
+      .veiling_glare = 0.03,
+      .optics = {0.007, 0.5, 6e-7, 0.9}};
+  scene.cameras[0].optics = {0.004, 1.5, 5e-7, 0.5};
   const std::string text = scene_toml(scene);
   EXPECT_EQ(parse_scene(text, "s"), scene) << text;
 }
