@@ -26,6 +26,12 @@ using DeviceHandle = std::unique_ptr<RTCDeviceTy, ReleaseDevice>;
 using SceneHandle = std::unique_ptr<RTCSceneTy, ReleaseScene>;
 using GeometryHandle = std::unique_ptr<RTCGeometryTy, ReleaseGeometry>;
 
+#ifdef LATERNA_PLAIN_THREADS  // for ThreadSanitizer, which cannot follow Embree's own threads
+constexpr const char* embree_threads = "threads=1,";
+#else
+constexpr const char* embree_threads = "";
+#endif
+
 // Embree calls this from its own code, through which no exception may pass: keep the first message for later.
 void remember(void* where, RTCError code, const char* message) {
   auto& kept = *static_cast<std::string*>(where);
@@ -40,10 +46,10 @@ glm::dvec3 middle(const std::vector<std::vector<glm::dvec3>>& objects) {
   return low.x <= high.x ? 0.5 * (low + high) : glm::dvec3(0.0);
 }
 
-RTCIntersectContext coherent() {
+RTCIntersectContext context_for(bool coherent) {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  context.flags = coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
   return context;
 }
 
@@ -63,7 +69,7 @@ struct RayScene::Embree {
 };
 
 void RayScene::Embree::open() {
-  device.reset(rtcNewDevice(embree_configuration().c_str()));
+  device.reset(rtcNewDevice((embree_threads + embree_configuration()).c_str()));
   if (!device) throw std::runtime_error("Embree: no device could be opened");
   rtcSetDeviceErrorFunction(device.get(), remember, &error);
   sixteen_wide = rtcGetDeviceProperty(device.get(), RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED) != 0;
@@ -153,10 +159,10 @@ std::uint32_t shadow(const Occluded& call, const RayPacket& rays, int first) {
 
 }  // namespace
 
-void RayScene::first_hits(const RayPacket& rays, HitPacket& hits) const {
+void RayScene::first_hits(const RayPacket& rays, HitPacket& hits, bool coherent) const {
   static_assert(no_hit == RTC_INVALID_GEOMETRY_ID);
   RTCScene scene = embree_->scene.get();
-  RTCIntersectContext context = coherent();
+  RTCIntersectContext context = context_for(coherent);
   if (embree_->sixteen_wide) {
     const auto call = [&](const int* valid, RTCRayHit16& r) { rtcIntersect16(valid, scene, &context, &r); };
     intersect<16, RTCRayHit16>(call, rays, 0, hits);
@@ -169,7 +175,7 @@ void RayScene::first_hits(const RayPacket& rays, HitPacket& hits) const {
 
 std::uint32_t RayScene::occluded(const RayPacket& rays) const {
   RTCScene scene = embree_->scene.get();
-  RTCIntersectContext context = coherent();
+  RTCIntersectContext context = context_for(true);
   if (embree_->sixteen_wide) {
     const auto call = [&](const int* valid, RTCRay16& r) { rtcOccluded16(valid, scene, &context, &r); };
     return shadow<16, RTCRay16>(call, rays, 0);

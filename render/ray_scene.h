@@ -62,7 +62,8 @@ class RayScene {
   }
 
   /// The first hit of each ray, on either side of a surface. Embree promises nothing at exactly 0 and `end`.
-  void first_hits(const RayPacket& rays, HitPacket& hits) const;
+  /// `coherent` only tells Embree that the rays run side by side, which is faster where they do.
+  void first_hits(const RayPacket& rays, HitPacket& hits, bool coherent = true) const;
 
   /// Whether anything stands between 0 and `end`: bit i of the result is lane i.
   std::uint32_t occluded(const RayPacket& rays) const;

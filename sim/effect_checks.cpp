@@ -86,20 +86,45 @@ void check_optics(const SceneSpec& scene) {
 }
 
 void check_slide(const SceneSpec& scene) {
-  const bool is_slide = scene.patterns.kind == PatternKind::slide;
+  const PatternKind kind = scene.patterns.parameters.kind;
+  const bool is_slide = kind == PatternKind::slide, is_list = kind == PatternKind::pictures;
   if (scene.effects.slide && !is_slide)
-    throw InputError("[effects]: slide is on, but kind of [patterns] is \"gray\", expected \"slide\"");
+    throw InputError("[effects]: slide is on, but kind of [patterns] is another, expected \"slide\"");
   if (!scene.effects.slide && is_slide)
     throw InputError(
         "[patterns]: kind is \"slide\", but slide of [effects] is off, expected slide = true there");
   if (is_slide && scene.patterns.file.empty())
     throw InputError("[effects]: slide is on, but [patterns] has no key file, expected a picture");
+  if (is_list == scene.patterns.files.empty())
+    throw InputError(is_list ? "[patterns]: kind is \"pictures\", but files is empty, expected pictures"
+                             : "[patterns]: files is given, but kind is not \"pictures\"");
+}
+
+void check_inter_reflection(const SceneSpec& scene) {
+  if (!scene.effects.inter_reflection) return;
+  const auto [bounces, paths] = scene.inter_reflection;
+  if (bounces < 1)
+    throw InputError(
+        "[effects]: inter_reflection is on, but [inter_reflection] has no bounces, expected at least 1");
+  const Effects& on = scene.effects;
+  const bool spread = on.antialiasing || on.camera_defocus || on.diffraction;
+  for (const CameraSpec& camera : scene.cameras) {
+    const long samples = spread ? camera.samples_per_pixel : 1;
+    const long entries = samples * bounces * paths;
+    if (entries > most_entries_per_pixel) {
+      throw InputError(
+          fmt::format("[inter_reflection]: {} samples per pixel × {} paths × {} bounces = {}, expected at "
+                      "most {}",
+                      samples, paths, bounces, entries, most_entries_per_pixel));
+    }
+  }
 }
 
 void check_colour_and_timing(const SceneSpec& scene) {
   const Effects& on = scene.effects;
   const auto filtered = [](const CameraSpec& c) { return c.colour_filter != ColourFilter::mono; };
-  if (on.colour && scene.colours.empty() && !on.slide && scene.patterns.colour == PatternsSpec{}.colour &&
+  if (on.colour && scene.colours.empty() && !comes_from_files(scene.patterns.parameters.kind) &&
+      scene.patterns.colour == PatternsSpec{}.colour &&
       std::none_of(scene.cameras.begin(), scene.cameras.end(), filtered))
     throw InputError(
         "[effects]: colour is on, but nothing has a colour, expected [[colour]], colour of [patterns], a "
@@ -187,9 +212,19 @@ void check_references(const SceneSpec& named) {
     fail("[timing]: moved", "projector or camera", moved);
 }
 
+void check(const MeshEffects& effects, double albedo) {
+  check(effects.gloss, albedo);
+  if (!effects.displacement_map.empty() && effects.displacement == 0)
+    throw InputError(
+        "displacement_map is given, but displacement is missing or 0, expected how far white moves");
+  if (effects.displacement_map.empty() && effects.displacement != 0)
+    throw InputError("displacement is given, but displacement_map is missing, expected a picture file");
+}
+
 void check_effects(const SceneSpec& scene) {
   check_projector_effects(scene);
   check_slide(scene);
+  check_inter_reflection(scene);
   check_optics(scene);
   check_colour_and_timing(scene);
   const Effects& on = scene.effects;
@@ -199,6 +234,8 @@ void check_effects(const SceneSpec& scene) {
                [](const CameraSpec& c) { return c.samples_per_pixel > 1; });
   expect_given(on.gloss, "gloss", "mesh", "gloss", scene.meshes,
                [](const MeshSpec& m) { return m.effects.gloss.model != GlossModel::none; });
+  expect_given(on.displacement, "displacement", "mesh", "displacement_map", scene.meshes,
+               [](const MeshSpec& m) { return !m.effects.displacement_map.empty(); });
   expect_given(on.normal_map, "normal_map", "mesh", "normal_map", scene.meshes,
                [](const MeshSpec& m) { return !m.effects.normal_map.empty(); });
   expect_given(on.solid_albedo, "solid_albedo", "mesh", "solid", scene.meshes,

@@ -105,10 +105,20 @@ struct Timing {
   bool operator==(const Timing&) const = default;
 };
 
+/// Light that goes from surface to surface before it comes to the camera.
+struct InterReflection {
+  int bounces = 0;  ///< the most surfaces on the way, that which the camera sees not counted
+  int paths = 16;   ///< for each camera sample
+  bool operator==(const InterReflection&) const = default;
+};
+
 struct MeshEffects {
   Gloss gloss{};
   Solid solid{};
-  std::string normal_map{};  ///< a picture file
+  std::string normal_map{};        ///< a picture file
+  std::string displacement_map{};  ///< a picture file
+  double displacement = 0;         ///< where the map is white, in the mesh file's unit; signed
+  double displacement_edge_px = 1;
   bool operator==(const MeshEffects&) const = default;
 };
 

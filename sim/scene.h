@@ -7,6 +7,7 @@
 #include "sim/image.h"
 #include "sim/lookup.h"
 #include "sim/mesh.h"
+#include "sim/pattern_sequence.h"
 #include "sim/sensor.h"
 
 #include <glm/glm.hpp>
@@ -34,6 +35,8 @@ struct Object {
   std::uint64_t seed = 1;  ///< draws the solid noise
   /// Tangent-space normals, each channel 0 to 1: n = 2·rgb - 1. Empty where effects.normal_map is.
   std::shared_ptr<const Image<glm::vec3>> normal_map{};
+  /// Heights, linear, 0 to 1. Empty where effects.displacement_map is.
+  std::shared_ptr<const Image<float>> displacement_map{};
 };
 
 /// A projector: a device that emits.
@@ -59,9 +62,7 @@ struct Camera {
   double veiling_glare = 0;  ///< share of the light that the lens scatters over the image
 };
 
-enum class PatternKind { gray, slide };  ///< slide: one picture from a file
-
-/// The picture that a slide projector shows.
+/// A picture of the user's that a projector shows.
 struct Slide {
   Image<float> light;     ///< linear, 0 to 1
   bool is_linear = true;  ///< whether 8-bit values for it are linear too; else they follow the sRGB curve
@@ -80,11 +81,14 @@ struct Scene {
   std::vector<Projector> projectors;
   std::vector<Camera> cameras;
   double ambient_lx = 0;  ///< uniform illuminance on every surface, from everywhere
-  PatternKind patterns = PatternKind::gray;
+  PatternParameters patterns{};
   Effects effects{};
+  InterReflection inter_reflection{};
   std::shared_ptr<const Slide> slide{};  ///< where effects.slide is on
-  glm::dvec3 pattern_colour{1, 1, 1};    ///< share of each primary's light that patterns are shown with
-  std::vector<ColourMixing> mixings{};   ///< of the pairs that have one
+  /// Where patterns.kind is pictures, in their order; of one size and one kind of values.
+  std::shared_ptr<const std::vector<Slide>> pictures{};
+  glm::dvec3 pattern_colour{1, 1, 1};   ///< share of each primary's light that patterns are shown with
+  std::vector<ColourMixing> mixings{};  ///< of the pairs that have one
   Timing timing{};
 };
 

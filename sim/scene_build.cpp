@@ -95,6 +95,44 @@ Image<float> read_fractions(const std::filesystem::path& path, Encoding encoding
   return map;
 }
 
+bool is_grey(const glm::vec3& rgb) { return rgb.x == rgb.y && rgb.y == rgb.z; }
+
+// Red, green and blue; none where all pixels are grey.
+std::vector<Image<float>> read_primaries(const std::filesystem::path& path, Encoding encoding) {
+  const Image<glm::vec3> rgb = read_rgb_float(path, encoding);
+  if (std::all_of(rgb.values.begin(), rgb.values.end(), is_grey)) return {};
+  std::vector<Image<float>> primaries(3, Image<float>(rgb.width, rgb.height));
+  for (std::size_t i = 0; i < 3 * rgb.values.size(); ++i) {
+    const float value = rgb.values[i / 3][int(i % 3)];
+    if (!(value >= 0 && value <= 1))
+      throw InputError(fmt::format("{}: a channel of a pixel is {}, expected 0 to 1", path.string(), value));
+    primaries[i % 3].values[i / 3] = value;
+  }
+  return primaries;
+}
+
+Slide read_slide(const PatternsSpec& patterns, const std::filesystem::path& path) {
+  return about("[patterns]", [&] {
+    return Slide{read_fractions(path, patterns.encoding), patterns.encoding == Encoding::linear,
+                 read_primaries(path, patterns.encoding)};
+  });
+}
+
+std::vector<Slide> read_slides(const PatternsSpec& patterns, const std::filesystem::path& folder) {
+  std::vector<Slide> slides;
+  for (const std::string& file : patterns.files) slides.push_back(read_slide(patterns, folder / file));
+  return slides;
+}
+
+/// Whether each projector can show the sequence; behind a scaler, another size is asked for when it does.
+void check_patterns(const Scene& scene) {
+  if (scene.effects.scaler) return;
+  for (const Projector& projector : scene.projectors)
+    about(heading("projector", projector.device.name), [&] {
+      validate(PatternSequence{scene.patterns, projector.device.intrinsics.size});
+    });
+}
+
 std::shared_ptr<const Image<float>> vignetting_map(const Vignetting& vignetting,
                                                    const std::filesystem::path& folder) {
   if (vignetting.model != VignettingModel::map) return {};
@@ -120,6 +158,15 @@ void add_normal_map(Object& object, const std::filesystem::path& folder) {
   object.normal_map = read_normal_map(folder / object.effects.normal_map);
 }
 
+void add_displacement_map(Object& object, const std::filesystem::path& folder) {
+  const std::string& file = object.effects.displacement_map;
+  if (file.empty()) return;
+  if (object.mesh.texture_coordinates.empty())
+    throw InputError("displacement_map is given, but the mesh has no texture coordinates");
+  object.displacement_map =
+      std::make_shared<const Image<float>>(read_fractions(folder / file, Encoding::linear));
+}
+
 Object build_object(const MeshSpec& spec, const std::filesystem::path& folder, Maps& maps) {
   Object object{.name = spec.name,
                 .mesh = {},
@@ -128,7 +175,8 @@ Object build_object(const MeshSpec& spec, const std::filesystem::path& folder, M
                 .albedo_map = {},
                 .effects = spec.effects,
                 .seed = spec.seed,
-                .normal_map = {}};
+                .normal_map = {},
+                .displacement_map = {}};
   if (spec.file.empty()) {
     object.mesh = make_shape({spec.shape, spec.shape_size, spec.detail, spec.seed});
   } else {
@@ -137,6 +185,7 @@ Object build_object(const MeshSpec& spec, const std::filesystem::path& folder, M
   validate(object.mesh, spec.file.empty() ? spec.shape : spec.file);
   expect_near(object.mesh, object.world_from_object);
   add_normal_map(object, folder);
+  add_displacement_map(object, folder);
   if (spec.albedo_map.empty()) return object;
   if (object.mesh.texture_coordinates.empty())
     throw InputError("albedo_map is given, but the mesh has no texture coordinates");
@@ -147,27 +196,6 @@ Object build_object(const MeshSpec& spec, const std::filesystem::path& folder, M
   }
   object.albedo_map = map;
   return object;
-}
-
-bool is_grey(const glm::vec3& rgb) { return rgb.x == rgb.y && rgb.y == rgb.z; }
-
-std::shared_ptr<const Slide> build_slide(const PatternsSpec& patterns, const std::filesystem::path& folder) {
-  const std::filesystem::path path = folder / patterns.file;
-  Slide slide{read_fractions(path, patterns.encoding), patterns.encoding == Encoding::linear};
-  const Image<glm::vec3> rgb = read_rgb_float(path, patterns.encoding);
-  if (std::all_of(rgb.values.begin(), rgb.values.end(), is_grey))
-    return std::make_shared<const Slide>(std::move(slide));
-  slide.primaries.assign(3, Image<float>(rgb.width, rgb.height));
-  for (std::size_t i = 0; i < rgb.values.size(); ++i) {
-    for (int primary = 0; primary < 3; ++primary) {
-      const float value = rgb.values[i][primary];
-      if (!(value >= 0 && value <= 1))
-        throw InputError(
-            fmt::format("{}: a channel of a pixel is {}, expected 0 to 1", path.string(), value));
-      slide.primaries[primary].values[i] = value;
-    }
-  }
-  return std::make_shared<const Slide>(std::move(slide));
 }
 
 template <class Spec>
@@ -229,7 +257,7 @@ void check(const MeshSpec& mesh) {
                                          : "file and shape are both given, expected one of the two");
     }
     world_from_file(mesh);
-    check(mesh.effects.gloss, mesh.albedo);
+    check(mesh.effects, mesh.albedo);
   });
 }
 
@@ -281,9 +309,11 @@ Scene build_scene(const SceneSpec& spec, const std::filesystem::path& folder) {
               .projectors = {},
               .cameras = {},
               .ambient_lx = spec.ambient_lx,
-              .patterns = spec.patterns.kind,
+              .patterns = spec.patterns.parameters,
               .effects = spec.effects,
+              .inter_reflection = spec.inter_reflection,
               .slide = {},
+              .pictures = {},
               .pattern_colour = spec.patterns.colour,
               .mixings = {},
               .timing = spec.timing};
@@ -309,7 +339,10 @@ Scene build_scene(const SceneSpec& spec, const std::filesystem::path& folder) {
   }
   switch_off_lenses(scene);
   if (spec.effects.slide)
-    scene.slide = about("[patterns]", [&] { return build_slide(spec.patterns, folder); });
+    scene.slide = std::make_shared<const Slide>(read_slide(spec.patterns, folder / spec.patterns.file));
+  if (spec.patterns.parameters.kind == PatternKind::pictures)
+    scene.pictures = std::make_shared<const std::vector<Slide>>(read_slides(spec.patterns, folder));
+  check_patterns(scene);
   for (const ColourSpec& c : named.colours) scene.mixings.push_back(build_mixing(c, named));
   return scene;
 }

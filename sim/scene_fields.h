@@ -28,7 +28,9 @@ inline std::span<const char* const> names_of(SensorKind) {
   return names;
 }
 inline std::span<const char* const> names_of(PatternKind) {
-  static constexpr const char* names[] = {"gray", "slide"};
+  static constexpr const char* names[] = {
+      "gray",        "slide",    "gray_phase", "phase",   "multi_frequency",
+      "micro_phase", "xor_gray", "chessboard", "charuco", "pictures"};
   return names;
 }
 inline std::span<const char* const> names_of(VignettingModel) {
@@ -217,6 +219,25 @@ void describe(Visitor& visit, MeshEffects& effects) {
               .sentence = "A colour picture of normals: red along s, green along t, blue outwards, each 0 to "
                           "1 for -1 to 1; relative to the scene file."},
         effects.normal_map);
+  visit(Field{.key = "displacement_map",
+              .sentence =
+                  "A picture of heights, linear, 0 to 1, through the mesh's texture coordinates; 16 bits or "
+                  "floats give no steps; relative to the scene file."},
+        effects.displacement_map);
+  visit(Field{.key = "displacement",
+              .sentence =
+                  "How far white moves the surface outwards along its smooth normal (negative: inwards), in "
+                  "the mesh file's unit, before `scale`; black stays.",
+              .low = -1e6,
+              .high = 1e6},
+        effects.displacement);
+  visit(Field{.key = "displacement_edge_px",
+              .unit = "px",
+              .sentence =
+                  "The mesh is refined until no edge is longer than this many pixels of displacement_map.",
+              .low = 0.1,
+              .high = 16384},
+        effects.displacement_edge_px);
 }
 
 template <class Visitor>
@@ -580,15 +601,50 @@ void describe(Visitor& visit, CameraSpec& camera) {
 }
 
 template <class Visitor>
-void describe(Visitor& visit, PatternsSpec& patterns) {
+void describe(Visitor& visit, PatternParameters& patterns) {
   visit(Field{.key = "kind",
-              .sentence = "gray: Gray code columns and rows with their inverses, white, black. slide: one "
-                          "picture."},
+              .sentence = "gray: Gray code columns and rows with their inverses, white, black. xor_gray: its "
+                          "bits without wide stripes. gray_phase: Gray code, then shifted sinusoids. phase: "
+                          "two periods, the second as wide as the projector. multi_frequency, micro_phase: "
+                          "several periods. chessboard, charuco: a board. slide: one picture. pictures: a "
+                          "list of them."},
         patterns.kind);
+  visit(Field{.key = "steps", .sentence = "Pictures of each sinusoid.", .low = 3, .high = 64},
+        patterns.steps);
+  visit(Field{.key = "pitch_px",
+              .unit = "px",
+              .sentence = "Period of the sinusoid, the finest where there are several.",
+              .low = 2,
+              .high = 1e5},
+        patterns.pitch_px);
+  visit(Field{.key = "pitches_px",
+              .unit = "px",
+              .sentence = "Periods of multi_frequency and micro_phase; absent: chosen from `pitch_px`.",
+              .low = 2,
+              .high = 1e5},
+        patterns.pitches_px);
+  visit(Field{.key = "xor_stripe_px",
+              .unit = "px",
+              .sentence = "Of xor_gray: the stripes that the other bits are combined with, a power of two.",
+              .low = 2,
+              .high = 1024},
+        patterns.xor_stripe_px);
+  visit(
+      Field{
+          .key = "square_px", .unit = "px", .sentence = "Side of a board's squares.", .low = 8, .high = 4096},
+      patterns.square_px);
+}
+
+template <class Visitor>
+void describe(Visitor& visit, PatternsSpec& patterns) {
+  describe(visit, patterns.parameters);
   visit(Field{.key = "file",
               .sentence = "The slide, a picture of the projector's size (or of the scaler's `input_size`); "
                           "colour becomes grey; relative to the scene file."},
         patterns.file);
+  visit(Field{.key = "files",
+              .sentence = "The pictures of kind \"pictures\", in their order, each as `file` is."},
+        patterns.files);
   visit(Field{.key = "encoding",
               .sentence = "What the integers of an 8- or 16-bit slide mean: \"linear\" where `response` is "
                           "to turn them into light."},
@@ -686,6 +742,21 @@ void describe(Visitor& visit, Timing& timing) {
 }
 
 template <class Visitor>
+void describe(Visitor& visit, InterReflection& reflection) {
+  visit(Field{.key = "bounces",
+              .sentence = "How many surfaces light visits before the one that the camera sees.",
+              .low = 0,
+              .high = most_bounces},
+        reflection.bounces);
+  visit(Field{.key = "paths",
+              .sentence = "How many ways back are followed from each camera sample; noise falls as "
+                          "1/√paths.",
+              .low = 1,
+              .high = most_paths},
+        reflection.paths);
+}
+
+template <class Visitor>
 void describe(Visitor& visit, SceneSpec& scene) {
   visit(Field{.key = "name", .sentence = "What reports call the scene."}, scene.name);
   visit(Field{.key = "ambient_lx",
@@ -698,6 +769,8 @@ void describe(Visitor& visit, SceneSpec& scene) {
   visit(
       Field{.key = "effects", .sentence = "One switch for each effect; what it needs stands with its noun."},
       scene.effects);
+  visit(Field{.key = "inter_reflection", .sentence = "Light from surface to surface."},
+        scene.inter_reflection);
   visit(Field{.key = "timing", .sentence = "When patterns are shown and when pictures are taken."},
         scene.timing);
   visit(

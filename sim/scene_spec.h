@@ -84,8 +84,9 @@ struct CameraSpec {
 };
 
 struct PatternsSpec {
-  PatternKind kind = PatternKind::gray;
-  std::string file{};
+  PatternParameters parameters{};
+  std::string file{};                ///< of a slide
+  std::vector<std::string> files{};  ///< of pictures
   Encoding encoding = Encoding::srgb;
   glm::dvec3 colour{1, 1, 1};
   bool operator==(const PatternsSpec&) const = default;
@@ -103,6 +104,7 @@ struct SceneSpec {
   double ambient_lx = 0;
   PatternsSpec patterns{};
   Effects effects{};
+  InterReflection inter_reflection{};
   Timing timing{};
   std::vector<ColourSpec> colours{};
   std::vector<MeshSpec> meshes{};

@@ -18,7 +18,7 @@ namespace {
 std::pair<std::vector<PatternStack>, bool> panel_stacks(const Scene& scene, const Projector& projector) {
   std::vector<PatternStack> stacks;
   if (patterns_have_colour(scene))
-    stacks = make_slide_primaries(*scene.slide, input_size(scene.effects, projector));
+    stacks = make_slide_primaries(shown_slides(scene), input_size(scene.effects, projector));
   else
     stacks = {make_input_patterns(scene, projector)};
   for (PatternStack& stack : stacks) apply_panel_effects(stack, scene, projector);
@@ -53,8 +53,9 @@ CameraShow make_camera_show(const Scene& scene, int camera, int projector, const
   const bool coloured = patterns_have_colour(scene), wheel = on.timing && scene.timing.colour_wheel;
   CameraShow show{rows, {}, {}};
   bool planes = false;
-  if (source.lookup == Lookup::nearest && !edits_patterns(on) && glare == 0)
-    show.bits = {make_binary_pattern_stack({source.device.intrinsics.size})};
+  const PatternSequence sequence = pattern_sequence(scene, source);
+  if (source.lookup == Lookup::nearest && !edits_patterns(on) && glare == 0 && is_binary(sequence))
+    show.bits = {make_binary_pattern_stack(sequence)};
   else
     std::tie(show.values, planes) = panel_stacks(scene, source);
   if (on.timing) {

@@ -1,5 +1,7 @@
 #include "render/effects/colour.h"
 
+#include "render/effects/slide.h"
+
 #include <algorithm>
 #include <array>
 #include <utility>
@@ -61,7 +63,9 @@ struct Mosaic {
 }  // namespace
 
 bool patterns_have_colour(const Scene& scene) {
-  return scene.effects.colour && scene.effects.slide && !scene.slide->primaries.empty();
+  const std::span<const Slide> slides = shown_slides(scene);
+  return scene.effects.colour &&
+         std::any_of(slides.begin(), slides.end(), [](const Slide& s) { return !s.primaries.empty(); });
 }
 
 int channel_at(ColourFilter filter, const glm::ivec2& camera_pixel) {

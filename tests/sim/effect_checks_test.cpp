@@ -40,6 +40,7 @@ TEST(EffectChecks, ASwitchWithoutItsParametersNamesTheMissingKey) {
   expect("attenuation", "projector", "attenuation");
   expect("gloss", "mesh", "gloss");
   expect("normal_map", "mesh", "normal_map");
+  expect("displacement", "mesh", "displacement_map");
   expect("solid_albedo", "mesh", "solid");
   expect("response", "projector", "response_exponent");
   expect("black_level", "projector", "black_level");
@@ -104,6 +105,25 @@ TEST(EffectChecks, ASlidesThreeKeysGoTogether) {
   EXPECT_THAT(error_of(mesh + slide + switch_on("slide")), HasSubstr("[patterns] has no key file"));
 }
 
+TEST(EffectChecks, InterReflectionHasBouncesAndRowsThatFitInMemory) {
+  const auto error = [&](const std::string& numbers) {
+    return error_of(mesh + camera + switch_on("inter_reflection") + "[inter_reflection]\n" + numbers);
+  };
+  EXPECT_THAT(error("paths = 8\n"), HasSubstr("[inter_reflection] has no bounces, expected at least 1"));
+  EXPECT_THAT(error("bounces = 65\n"), HasSubstr("bounces"));
+  EXPECT_THAT(error("bounces = 1\npaths = 0\n"), HasSubstr("paths"));
+  EXPECT_THAT(error("bounces = 64\npaths = 4097\n"), HasSubstr("paths"));
+  EXPECT_EQ(parse_scene(mesh + camera + switch_on("inter_reflection") +
+                            "[inter_reflection]\nbounces = 64\npaths = 4096\n",
+                        "s")
+                .inter_reflection,
+            (InterReflection{64, 4096}));
+  const std::string sampled = camera + "samples_per_pixel = 2\n";
+  EXPECT_THAT(error_of(mesh + sampled + switch_on("inter_reflection") +
+                       "antialiasing = true\n[inter_reflection]\nbounces = 64\npaths = 4096\n"),
+              HasSubstr("2 samples per pixel × 4096 paths × 64 bounces = 524288, expected at most 262144"));
+}
+
 TEST(EffectChecks, ParametersThatMakeNoSense) {
   const auto projector_error = [&](const std::string& line) { return error_of(mesh + projector + line); };
   EXPECT_THAT(projector_error("vignetting = { model = \"polynomial\" }\n"),
@@ -117,6 +137,10 @@ TEST(EffectChecks, ParametersThatMakeNoSense) {
   EXPECT_THAT(projector_error("response_table = [0, 1]\nresponse_exponent = 2\n"), HasSubstr("both given"));
   EXPECT_THAT(error_of(mesh + "gloss = { model = \"phong\" }\n"), HasSubstr("exponent is missing"));
   EXPECT_THAT(error_of(mesh + "gloss = { model = \"ggx\" }\n"), HasSubstr("roughness is missing"));
+  EXPECT_THAT(error_of(mesh + "displacement = 0.1\n"), HasSubstr("displacement_map is missing"));
+  EXPECT_THAT(error_of(mesh + "displacement_map = \"h.png\"\n"), HasSubstr("displacement is missing or 0"));
+  EXPECT_THAT(error_of(mesh + "displacement_map = \"h.png\"\ndisplacement = 1e7\n"),
+              HasSubstr("displacement"));
   EXPECT_THAT(error_of(mesh + "gloss = { model = \"ggx\", roughness = 0.1, strength = 0.3 }\n"),
               HasSubstr("more than all light"));
 }
@@ -132,11 +156,16 @@ TEST(EffectChecks, EveryKeySurvivesWritingAndReading) {
   }
   EXPECT_EQ(names.size(), all_effects.size());
   EXPECT_EQ(defaults_on, 7);
-  scene.patterns = {PatternKind::slide, "slide.png", Encoding::linear, {1, 0.5, 0.25}};
+  scene.inter_reflection = {3, 20};
+  scene.patterns.parameters.kind = PatternKind::slide;
+  scene.patterns.file = "slide.png";
+  scene.patterns.encoding = Encoding::linear;
+  scene.patterns.colour = {1, 0.5, 0.25};
   scene.colours = {{"projector", "camera", {1, 0.1, 0, 0.2, 1, 0.2, 0, 0.1, 1}}};
   scene.timing = {3, 5, 2, 1.3, 0.2, 0.5, true, true, {"camera", 7, {0, 0.01, 0}, {0.001, 0, 0}}};
   scene.meshes[0].albedo = 0.5;
-  scene.meshes[0].effects = {{GlossModel::ggx, 0.25, {}, 0.3}, {SolidKind::noise, 0.7, 0.1}, "n.png"};
+  scene.meshes[0].effects = {
+      {GlossModel::ggx, 0.25, {}, 0.3}, {SolidKind::noise, 0.7, 0.1}, "n.png", "h.png", -0.5, 2.5};
   scene.cameras[0].vignetting = {VignettingModel::map, {}, "v.exr"};
   scene.cameras[0].samples_per_pixel = 9;
   scene.cameras[0].colour_filter = ColourFilter::bayer_gbrg;
@@ -179,6 +208,13 @@ TEST(EffectChecks, PicturesAreReadAndChecked) {
   EXPECT_EQ(red.slide->primaries[2](3, 1), 0);
   EXPECT_THAT(testing::input_error([&] { load(mesh + "normal_map = \"down.exr\"\n"); }),
               HasSubstr("blue above 0.5"));
+  write_picture(folder / "high.exr", Image<float>(4, 2, 1.5f));
+  EXPECT_THAT(
+      testing::input_error([&] { load(mesh + "displacement_map = \"high.exr\"\ndisplacement = 0.1\n"); }),
+      AllOf(HasSubstr("high.exr"), HasSubstr("a pixel is 1.5, expected 0 to 1")));
+  EXPECT_THAT(
+      testing::input_error([&] { load(mesh + "displacement_map = \"none.png\"\ndisplacement = 0.1\n"); }),
+      HasSubstr("none.png"));
   EXPECT_THAT(testing::input_error([&] { load(mesh + "normal_map = \"none.png\"\n"); }),
               HasSubstr("none.png"));
 }

@@ -77,7 +77,7 @@ TEST(SceneFile, FixedKeysAreReadAsTheyStand) {
   EXPECT_EQ(device.lens.parameters.size(), 4u);
   EXPECT_EQ(device.planes.near_m, 0.1);
   EXPECT_EQ(device.planes.far_m, 20.0);
-  EXPECT_EQ(scene.patterns.kind, PatternKind::gray);
+  EXPECT_EQ(scene.patterns.parameters.kind, PatternKind::gray);
 }
 
 TEST(SceneFile, AMeshAloneIsAScene) {
