@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
+#include <utility>
 
 namespace laterna {
 
@@ -121,6 +123,28 @@ void check_inter_reflection(const SceneSpec& scene) {
   }
 }
 
+void check_colour_and_timing(const SceneSpec& scene) {
+  const Effects& on = scene.effects;
+  const auto filtered = [](const CameraSpec& c) { return c.colour_filter != ColourFilter::mono; };
+  if (on.colour && scene.colours.empty() && !comes_from_files(scene.patterns.parameters.kind) &&
+      scene.patterns.colour == PatternsSpec{}.colour &&
+      std::none_of(scene.cameras.begin(), scene.cameras.end(), filtered))
+    throw InputError(
+        "[effects]: colour is on, but nothing has a colour, expected [[colour]], colour of [patterns], a "
+        "slide, or colour_filter of a [[camera]]");
+  if (on.timing && scene.timing == Timing{})
+    throw InputError("[effects]: timing is on, but [timing] has no key, expected at least one");
+  if (on.timing && scene.timing.colour_wheel && !on.colour)
+    throw InputError("[timing]: colour_wheel is on, but colour of [effects] is off, expected it on");
+  expect_given(on.camera_glare, "camera_glare", "camera", "veiling_glare", scene.cameras,
+               [](const CameraSpec& c) { return c.veiling_glare > 0; });
+}
+
+template <class Devices>
+bool has_device(const Devices& devices, const std::string& name) {
+  return std::any_of(devices.begin(), devices.end(), [&](const auto& d) { return d.device.name == name; });
+}
+
 }  // namespace
 
 std::array<glm::dvec2, 4> keystone_corners(const Scaler& scaler) {
@@ -173,6 +197,24 @@ void check(const Gloss& gloss, double albedo) {
   }
 }
 
+void check_references(const SceneSpec& named) {
+  std::set<std::pair<std::string, std::string>> pairs;
+  const auto fail = [](const std::string& where, const char* kind, const std::string& name) {
+    throw InputError(
+        fmt::format("{}: no {} is called \"{}\", expected one of the scene's", where, kind, name));
+  };
+  for (const ColourSpec& c : named.colours) {
+    if (!has_device(named.projectors, c.projector)) fail("[[colour]]", "projector", c.projector);
+    if (!has_device(named.cameras, c.camera)) fail("[[colour]]", "camera", c.camera);
+    if (!pairs.insert({c.projector, c.camera}).second)
+      throw InputError(
+          fmt::format("[[colour]]: \"{}\" and \"{}\" have two mixings, expected one", c.projector, c.camera));
+  }
+  const std::string& moved = named.timing.moved.device;
+  if (!moved.empty() && !has_device(named.projectors, moved) && !has_device(named.cameras, moved))
+    fail("[timing]: moved", "projector or camera", moved);
+}
+
 void check(const MeshEffects& effects, double albedo) {
   check(effects.gloss, albedo);
   if (!effects.displacement_map.empty() && effects.displacement == 0)
@@ -187,6 +229,7 @@ void check_effects(const SceneSpec& scene) {
   check_slide(scene);
   check_inter_reflection(scene);
   check_optics(scene);
+  check_colour_and_timing(scene);
   const Effects& on = scene.effects;
   expect_given(on.camera_vignetting, "camera_vignetting", "camera", "vignetting", scene.cameras,
                [](const CameraSpec& c) { return c.vignetting.model != VignettingModel::none; });

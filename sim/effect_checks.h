@@ -16,6 +16,10 @@ void check(const Gloss& gloss, double albedo);          ///< what its model need
 /// inter-reflection has bounces, and rows that fit in memory. Throws InputError that names the missing key.
 void check_effects(const SceneSpec& scene);
 
+/// Devices that [[colour]] and [timing] name exist, and no pair has two mixings. `named` has passed
+/// with_names().
+void check_references(const SceneSpec& named);
+
 /// The quadrilateral of a scaler, upper left corner first; the panel's corners where no keystone is given.
 std::array<glm::dvec2, 4> keystone_corners(const Scaler& scaler);
 

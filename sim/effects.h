@@ -16,6 +16,7 @@ struct Effects {
   bool antialiasing = false, camera_defocus = false, projector_defocus = false;
   bool diffraction = false, fill_factor = false;
   bool inter_reflection = false, displacement = false;
+  bool colour = false, timing = false, camera_glare = false;
   bool operator==(const Effects&) const = default;
 };
 
@@ -73,6 +74,12 @@ inline constexpr auto all_effects = std::to_array<EffectSwitch>({
     {"inter_reflection", "rows",
      "Surfaces light each other, diffusely. Needs `bounces` above 0 of [inter_reflection].",
      &Effects::inter_reflection},
+    {"colour", "weight",
+     "Projectors have a red, a green and a blue primary. Needs a coloured slide, `colour` of [patterns], "
+     "[[colour]], or a `colour_filter` of a [[camera]].",
+     &Effects::colour},
+    {"timing", "replay", "Needs [timing].", &Effects::timing},
+    {"camera_glare", "replay", "Needs `veiling_glare` of a [[camera]].", &Effects::camera_glare},
 });
 
 /// Whether the panel shows anything but the pattern sequence as it stands.

@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <map>
@@ -94,9 +95,27 @@ Image<float> read_fractions(const std::filesystem::path& path, Encoding encoding
   return map;
 }
 
+bool is_grey(const glm::vec3& rgb) { return rgb.x == rgb.y && rgb.y == rgb.z; }
+
+// Red, green and blue; none where all pixels are grey.
+std::vector<Image<float>> read_primaries(const std::filesystem::path& path, Encoding encoding) {
+  const Image<glm::vec3> rgb = read_rgb_float(path, encoding);
+  if (std::all_of(rgb.values.begin(), rgb.values.end(), is_grey)) return {};
+  std::vector<Image<float>> primaries(3, Image<float>(rgb.width, rgb.height));
+  for (std::size_t i = 0; i < 3 * rgb.values.size(); ++i) {
+    const float value = rgb.values[i / 3][int(i % 3)];
+    if (!(value >= 0 && value <= 1))
+      throw InputError(fmt::format("{}: a channel of a pixel is {}, expected 0 to 1", path.string(), value));
+    primaries[i % 3].values[i / 3] = value;
+  }
+  return primaries;
+}
+
 Slide read_slide(const PatternsSpec& patterns, const std::filesystem::path& path) {
-  return {about("[patterns]", [&] { return read_fractions(path, patterns.encoding); }),
-          patterns.encoding == Encoding::linear};
+  return about("[patterns]", [&] {
+    return Slide{read_fractions(path, patterns.encoding), patterns.encoding == Encoding::linear,
+                 read_primaries(path, patterns.encoding)};
+  });
 }
 
 std::vector<Slide> read_slides(const PatternsSpec& patterns, const std::filesystem::path& folder) {
@@ -180,6 +199,19 @@ Object build_object(const MeshSpec& spec, const std::filesystem::path& folder, M
 }
 
 template <class Spec>
+int index_of(const std::vector<Spec>& devices, const std::string& name) {
+  return int(
+      std::find_if(devices.begin(), devices.end(), [&](const Spec& d) { return d.device.name == name; }) -
+      devices.begin());
+}
+
+ColourMixing build_mixing(const ColourSpec& spec, const SceneSpec& named) {
+  ColourMixing mixing{index_of(named.projectors, spec.projector), index_of(named.cameras, spec.camera), {}};
+  for (int i = 0; i < 9; ++i) mixing.channels[i / 3][i % 3] = spec.mixing[i];
+  return mixing;
+}
+
+template <class Spec>
 void name_devices(std::vector<Spec>& devices, const char* kind) {
   for (std::size_t i = 0; i < devices.size(); ++i) {
     std::string& name = devices[i].device.name;
@@ -239,6 +271,13 @@ void check(const CameraSpec& camera) {
   about(heading("camera", camera.device.name), [&] { check(camera.vignetting); });
 }
 
+void check(const ColourSpec& colour) {
+  if (colour.projector.empty() || colour.camera.empty())
+    throw InputError("[[colour]]: the key projector or camera is missing, expected the names of both");
+  if (colour.mixing.size() != 9)
+    throw InputError(fmt::format("[[colour]]: mixing has {} numbers, expected 9", colour.mixing.size()));
+}
+
 void check(const SceneSpec& scene) {
   if (scene.meshes.empty()) throw InputError("there is no [[mesh]], expected at least one");
   check_effects(scene);
@@ -253,6 +292,7 @@ void check(const SceneSpec& scene) {
   };
   for (const ProjectorSpec& projector : named.projectors) add("projector", projector.device.name);
   for (const CameraSpec& camera : named.cameras) add("camera", camera.device.name);
+  check_references(named);
 }
 
 SceneSpec with_names(SceneSpec spec) {
@@ -273,7 +313,10 @@ Scene build_scene(const SceneSpec& spec, const std::filesystem::path& folder) {
               .effects = spec.effects,
               .inter_reflection = spec.inter_reflection,
               .slide = {},
-              .pictures = {}};
+              .pictures = {},
+              .pattern_colour = spec.patterns.colour,
+              .mixings = {},
+              .timing = spec.timing};
   const SceneSpec named = with_names(spec);
   Maps maps;
   for (const MeshSpec& mesh : named.meshes) {
@@ -292,7 +335,7 @@ Scene build_scene(const SceneSpec& spec, const std::filesystem::path& folder) {
     check(c);
     scene.cameras.push_back({device_of(c.device, folder, what), c.sensor, c.vignetting,
                              about(what, [&] { return vignetting_map(c.vignetting, folder); }),
-                             c.samples_per_pixel, c.optics});
+                             c.samples_per_pixel, c.optics, c.colour_filter, c.veiling_glare});
   }
   switch_off_lenses(scene);
   if (spec.effects.slide)
@@ -300,6 +343,7 @@ Scene build_scene(const SceneSpec& spec, const std::filesystem::path& folder) {
   if (spec.patterns.parameters.kind == PatternKind::pictures)
     scene.pictures = std::make_shared<const std::vector<Slide>>(read_slides(spec.patterns, folder));
   check_patterns(scene);
+  for (const ColourSpec& c : named.colours) scene.mixings.push_back(build_mixing(c, named));
   return scene;
 }
 

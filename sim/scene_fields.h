@@ -45,6 +45,10 @@ inline std::span<const char* const> names_of(SolidKind) {
   static constexpr const char* names[] = {"none", "checker", "noise"};
   return names;
 }
+inline std::span<const char* const> names_of(ColourFilter) {
+  static constexpr const char* names[] = {"mono", "bayer_rggb", "bayer_bggr", "bayer_grbg", "bayer_gbrg"};
+  return names;
+}
 
 template <class Visitor>
 void describe(Visitor& visit, Effects& effects) {
@@ -585,6 +589,15 @@ void describe(Visitor& visit, CameraSpec& camera) {
               .high = most_samples_per_pixel},
         camera.samples_per_pixel);
   describe(visit, camera.optics);
+  visit(Field{.key = "colour_filter",
+              .sentence = "With `colour`: before each pixel. A Bayer camera's pictures are the raw mosaic."},
+        camera.colour_filter);
+  visit(Field{.key = "veiling_glare",
+              .sentence = "With `camera_glare`: share of the light that the lens scatters evenly over the "
+                          "image.",
+              .low = 0,
+              .high = 1},
+        camera.veiling_glare);
 }
 
 template <class Visitor>
@@ -636,6 +649,96 @@ void describe(Visitor& visit, PatternsSpec& patterns) {
               .sentence = "What the integers of an 8- or 16-bit slide mean: \"linear\" where `response` is "
                           "to turn them into light."},
         patterns.encoding);
+  visit(Field{.key = "colour",
+              .sentence = "With `colour` of [effects]: the share of its light with which each primary, red, "
+                          "green and blue, plays.",
+              .low = 0,
+              .high = 1},
+        patterns.colour);
+}
+
+template <class Visitor>
+void describe(Visitor& visit, ColourSpec& colour) {
+  visit(Field{.key = "projector", .sentence = "Its name."}, colour.projector);
+  visit(Field{.key = "camera", .sentence = "Its name."}, colour.camera);
+  visit(Field{.key = "mixing",
+              .sentence = "9 numbers row by row: what the camera's red, green and blue channel see of the "
+                          "projector's red, green and blue primary. A mono camera sees the mean of the rows.",
+              .low = 0,
+              .high = 1000},
+        colour.mixing);
+}
+
+template <class Visitor>
+void describe(Visitor& visit, RigMove& moved) {
+  visit(Field{.key = "device", .sentence = "Name of a projector or camera. Absent: nothing moves."},
+        moved.device);
+  visit(Field{.key = "from_picture",
+              .sentence = "The first picture of a sequence that sees it there.",
+              .low = 0,
+              .high = 1e9},
+        moved.from_picture);
+  visit(Field{.key = "rotation_vector_rad",
+              .unit = "rad",
+              .sentence = "Rotation R, axis times angle, and",
+              .low = -1000,
+              .high = 1000},
+        moved.rotation_vector_rad);
+  visit(Field{.key = "translation",
+              .unit = "m",
+              .sentence = "translation t: there x_device = R·x + t of what was x in the device's frame.",
+              .low = -farthest_m,
+              .high = farthest_m},
+        moved.translation);
+}
+
+template <class Visitor>
+void describe(Visitor& visit, Timing& timing) {
+  visit(Field{.key = "dropped_frame",
+              .sentence = "From this picture on, the projector shows the pattern after the due one.",
+              .low = 0,
+              .high = 1e9},
+        timing.dropped_frame);
+  visit(Field{.key = "repeated_frame",
+              .sentence = "From this picture on, the projector shows the pattern before the due one.",
+              .low = 0,
+              .high = 1e9},
+        timing.repeated_frame);
+  visit(Field{.key = "frames_per_pattern",
+              .unit = "frames",
+              .sentence = "For how long a pattern is shown. One picture is taken of each.",
+              .low = 1,
+              .high = 1000},
+        timing.frames_per_pattern);
+  visit(Field{.key = "exposure_frames",
+              .unit = "frames",
+              .sentence = "For how long each picture is exposed. Pictures are as bright for any.",
+              .low = 0,
+              .high = 1000,
+              .low_excluded = true},
+        timing.exposure_frames);
+  visit(Field{.key = "exposure_delay_frames",
+              .unit = "frames",
+              .sentence = "How late after its pattern a picture's exposure begins.",
+              .low = -1000,
+              .high = 1000},
+        timing.exposure_delay_frames);
+  visit(Field{.key = "rolling_shutter_frames",
+              .unit = "frames",
+              .sentence = "How much later the image's last row is exposed than its first.",
+              .low = 0,
+              .high = 1000},
+        timing.rolling_shutter_frames);
+  visit(Field{.key = "colour_wheel",
+              .sentence = "With `colour`: red, green and blue are shown one after the other, a third of a "
+                          "frame each."},
+        timing.colour_wheel);
+  visit(Field{.key = "bit_planes",
+              .sentence = "The 8 bits of a value are shown one after the other within a frame, most "
+                          "significant first, each for its share of the time."},
+        timing.bit_planes);
+  visit(Field{.key = "moved", .sentence = "A device that stands elsewhere from some picture on."},
+        timing.moved);
 }
 
 template <class Visitor>
@@ -668,6 +771,11 @@ void describe(Visitor& visit, SceneSpec& scene) {
       scene.effects);
   visit(Field{.key = "inter_reflection", .sentence = "Light from surface to surface."},
         scene.inter_reflection);
+  visit(Field{.key = "timing", .sentence = "When patterns are shown and when pictures are taken."},
+        scene.timing);
+  visit(
+      Field{.key = "colour", .sentence = "How a camera sees a projector's primaries; absent: each its own."},
+      scene.colours);
   visit(Field{.key = "mesh", .sentence = "A surface; at least one."}, scene.meshes);
   visit(Field{.key = "projector", .sentence = "A device that emits."}, scene.projectors);
   visit(Field{.key = "camera", .sentence = "A device that measures."}, scene.cameras);

@@ -29,16 +29,6 @@ struct Captured {
   double entries_per_pixel = 0, seconds = 0;
 };
 
-// The same rows; adds the entries that they had.
-ImageRows counted(const ImageRows& image, std::atomic<std::uint64_t>& entries) {
-  return {image.size,
-          [&entries, inner = image.rows](LightRows& rows) {
-            inner(rows);
-            entries += rows.entries.size();
-          },
-          image.region_px};
-}
-
 // Traces and captures every view once, at the given exposures or, where there are none, at those that suit
 // the scene.
 Captured capture_once(const Scene& scene, std::uint64_t seed, const std::vector<double>& saturations) {
@@ -53,8 +43,8 @@ Captured capture_once(const Scene& scene, std::uint64_t seed, const std::vector<
     captured.saturations.push_back(view.saturation_cd_per_m2);
     captured.projectors.push_back(view.projector);
     const ImageRows rows = view_rows(scene, traced, view, seed);
-    captured.stacks.push_back(capture_rows(scene, view.camera, view.projector, counted(rows, entries),
-                                           view.saturation_cd_per_m2, seed, times));
+    captured.stacks.push_back(capture_rows(scene, view.camera, view.projector, rows,
+                                           view.saturation_cd_per_m2, seed, times, &entries));
     pixels += double(rows.size.x) * rows.size.y;
   }
   captured.entries_per_pixel = pixels > 0 ? double(entries) / pixels : 0;

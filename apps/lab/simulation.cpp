@@ -2,7 +2,10 @@
 
 #include "render/automatic_exposure.h"
 #include "render/effects/apply_effects.h"
+#include "render/effects/camera_show.h"
+#include "render/effects/colour.h"
 #include "render/effects/displacement.h"
+#include "render/effects/rig_move.h"
 #include "render/exposure.h"
 #include "render/trace_rows.h"
 #include "sim/error.h"
@@ -91,10 +94,15 @@ ImageRows rig_rows(const Scene& scene, const SceneRays& rig, int camera, int pro
 
 namespace {
 
+ImageRows in_colour(ImageRows rows, const Scene& scene, int camera, int projector) {
+  rows.rows = apply_colour(std::move(rows.rows), scene, camera, projector, false);
+  return rows;
+}
+
 // Rows by which a view is exposed: those of pixel centres, or, where surfaces light each other, which costs
 // many rays, those of every sixteenth tile along diagonals.
 ImageRows exposure_rows(const Scene& scene, const SceneRays& rig, int camera, int projector) {
-  const ImageRows all = rig_rows(scene, rig, camera, projector, {});
+  const ImageRows all = in_colour(rig_rows(scene, rig, camera, projector, {}), scene, camera, projector);
   if (!scene.effects.inter_reflection) return all;
   const RowSource some = [rows = all.rows](LightRows& out) {
     const PixelRegion& r = out.region;
@@ -142,9 +150,10 @@ Traced trace(const Scene& given, StageTimes& times, const Progress& progress) {
   for (View& view : traced.views) {
     const std::optional<double> fixed = fixed_saturation_cd_per_m2(scene.cameras[view.camera].sensor);
     view.saturation_cd_per_m2 = fixed ? *fixed : times.measure("exposure", [&] {
-      const ImageRows rows = rows_are_direct(scene, view.camera)
-                                 ? direct_view_rows(scene, traced, view)
-                                 : exposure_rows(scene, traced, view.camera, view.projector);
+      const ImageRows rows =
+          rows_are_direct(scene, view.camera)
+              ? in_colour(direct_view_rows(scene, traced, view), scene, view.camera, view.projector)
+              : exposure_rows(scene, traced, view.camera, view.projector);
       return automatic_saturation_cd_per_m2({&rows, 1});
     });
   }
@@ -156,22 +165,38 @@ ImageRows view_rows(const Scene& scene, const Traced& traced, const View& view, 
   return rig_rows(scene, traced, view.camera, view.projector, samples_of(scene, view.camera, seed));
 }
 
+namespace {
+
+// The same rows; adds the entries that they had.
+ImageRows counted(const ImageRows& image, std::atomic<std::uint64_t>& entries) {
+  return {image.size,
+          [&entries, inner = image.rows](LightRows& rows) {
+            inner(rows);
+            entries += rows.entries.size();
+          },
+          image.region_px};
+}
+
+}  // namespace
+
 CapturedStack capture_rows(const Scene& scene, int camera, int projector, const ImageRows& rows,
-                           double saturation_cd_per_m2, std::uint64_t seed, StageTimes& times) {
+                           double saturation_cd_per_m2, std::uint64_t seed, StageTimes& times,
+                           std::atomic<std::uint64_t>* entries) {
   const Projector& source = scene.projectors[projector];
   const Exposure exposure = make_exposure(scene.cameras[camera].sensor, saturation_cd_per_m2,
                                           {seed, std::uint32_t(camera), std::uint32_t(projector)});
-  const auto play = [&](const Show& show) {
-    return times.measure("capture", [&] { return play_stack(rows, source.lookup, show, exposure); });
-  };
-  const PatternSequence sequence = pattern_sequence(scene, source);
-  if (source.lookup == Lookup::nearest && !edits_patterns(scene.effects) && is_binary(sequence)) {
-    const BinaryPatternStack bits =
-        times.measure("patterns", [&] { return make_binary_pattern_stack(sequence); });
-    return play(bits);
-  }
-  const PatternStack values = times.measure("patterns", [&] { return make_patterns(scene, source); });
-  return play(values);
+  CameraShow played =
+      times.measure("patterns", [&] { return make_camera_show(scene, camera, projector, rows); });
+  if (entries) played.rows = counted(played.rows, *entries);
+  CapturedStack stack = times.measure(
+      "capture", [&] { return play_stack(played.rows, source.lookup, played.show(), exposure); });
+  if (!moves(scene, camera, projector)) return stack;
+  const Scene moved = after_move(scene);
+  const SceneRays rig = make_rig(moved, times);
+  const ImageRows moved_rows = rig_rows(moved, rig, camera, projector, samples_of(moved, camera, seed));
+  splice(stack, capture_rows(moved, camera, projector, moved_rows, saturation_cd_per_m2, seed, times),
+         scene.timing.moved.from_picture);
+  return stack;
 }
 
 CapturedStack capture_view(const Scene& scene, const Traced& traced, const View& view, std::uint64_t seed,

@@ -10,6 +10,7 @@
 #include "sim/image.h"
 #include "sim/scene.h"
 
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -108,9 +109,12 @@ ImageRows view_rows(const Scene& scene, const Traced& traced, const View& view, 
 CapturedStack capture_view(const Scene& scene, const Traced& traced, const View& view, std::uint64_t seed,
                            StageTimes& times);
 
-/// Pictures of rows at hand. `seed` draws the noise.
+/// Pictures of rows at hand, those of white light, with colour, camera glare and timing; where timing moves
+/// the rig, its moved rows are traced here. `seed` draws the noise; the entries that played are added to
+/// `entries`.
 CapturedStack capture_rows(const Scene& scene, int camera, int projector, const ImageRows& rows,
-                           double saturation_cd_per_m2, std::uint64_t seed, StageTimes& times);
+                           double saturation_cd_per_m2, std::uint64_t seed, StageTimes& times,
+                           std::atomic<std::uint64_t>* entries = nullptr);
 
 /// Share of something, in per cent, for people.
 struct Overlap {

@@ -67,14 +67,27 @@ void apply_camera_effects(SurfaceMap& surface, const RayScene& rays, const Scene
   apply_camera_vignetting(surface, PixelGeometry(surface, rays, scene), camera);
 }
 
+void apply_panel_effects(PatternStack& patterns, const Scene& scene, const Projector& projector) {
+  const Scaler& scaler = projector.effects.scaler;
+  if (scene.effects.scaler && !(scaler == Scaler{}))
+    patterns = scale_patterns(patterns, scaler, projector.device.intrinsics.size);
+  if (scene.effects.response) apply_response(patterns, projector.effects);
+}
+
+void apply_black_and_glare(PatternStack& patterns, const Scene& scene, const Projector& projector) {
+  if (scene.effects.black_level) apply_black_level(patterns, projector.effects);
+  if (scene.effects.veiling_glare) apply_veiling_glare(patterns, projector.effects);
+}
+
 void apply_effects(PatternStack& patterns, const Scene& scene, const Projector& projector) {
-  const Effects& on = scene.effects;
-  const ProjectorEffects& effects = projector.effects;
-  if (on.scaler && !(effects.scaler == Scaler{}))
-    patterns = scale_patterns(patterns, effects.scaler, projector.device.intrinsics.size);
-  if (on.response) apply_response(patterns, effects);
-  if (on.black_level) apply_black_level(patterns, effects);
-  if (on.veiling_glare) apply_veiling_glare(patterns, effects);
+  apply_panel_effects(patterns, scene, projector);
+  apply_black_and_glare(patterns, scene, projector);
+}
+
+PatternStack make_input_patterns(const Scene& scene, const Projector& projector) {
+  const std::span<const Slide> slides = shown_slides(scene);
+  return slides.empty() ? make_pattern_stack(pattern_sequence(scene, projector))
+                        : make_slide_stack(slides, input_size(scene.effects, projector));
 }
 
 PatternSequence pattern_sequence(const Scene& scene, const Projector& projector) {
@@ -82,10 +95,7 @@ PatternSequence pattern_sequence(const Scene& scene, const Projector& projector)
 }
 
 PatternStack make_patterns(const Scene& scene, const Projector& projector) {
-  const glm::ivec2 size = input_size(scene.effects, projector);
-  PatternStack patterns = scene.effects.slide ? make_slide_stack({scene.slide.get(), 1}, size)
-                          : scene.pictures    ? make_slide_stack(*scene.pictures, size)
-                                              : make_pattern_stack(pattern_sequence(scene, projector));
+  PatternStack patterns = make_input_patterns(scene, projector);
   apply_effects(patterns, scene, projector);
   return patterns;
 }

@@ -35,11 +35,19 @@ void apply_camera_effects(SurfaceMap& surface, const RayScene& rays, const Scene
 /// glare. What is off leaves every bit as it was.
 void apply_effects(PatternStack& patterns, const Scene& scene, const Projector& projector);
 
+/// The two parts of that: the signal's way to the panel (scaler, response), and the light behind it (black
+/// level, veiling glare).
+void apply_panel_effects(PatternStack& patterns, const Scene& scene, const Projector& projector);
+void apply_black_and_glare(PatternStack& patterns, const Scene& scene, const Projector& projector);
+
 /// The family that the scene names, for the size that the projector takes.
 PatternSequence pattern_sequence(const Scene& scene, const Projector& projector);
 
 /// The scene's patterns as the projector's panel shows them: a sequence, slide or pictures, of input_size()
 /// (render/effects/scaler.h), then apply_effects.
 PatternStack make_patterns(const Scene& scene, const Projector& projector);
+
+/// What goes into the projector, before those effects; a coloured slide as grey.
+PatternStack make_input_patterns(const Scene& scene, const Projector& projector);
 
 }  // namespace laterna

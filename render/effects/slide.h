@@ -15,4 +15,10 @@ namespace laterna {
 /// another kind than the first one's.
 PatternStack make_slide_stack(std::span<const Slide> slides, const glm::ivec2& size);
 
+/// Their red, green and blue; grey ones three times the same.
+std::vector<PatternStack> make_slide_primaries(std::span<const Slide> slides, const glm::ivec2& size);
+
+/// What the scene shows in place of coded patterns: its slide, its pictures, or none.
+std::span<const Slide> shown_slides(const Scene& scene);
+
 }  // namespace laterna
