@@ -6,5 +6,5 @@ foreach(package IN ITEMS glm TBB fmt nlohmann_json assimp ZLIB mrcal Eigen3 Cere
 endforeach()
 find_package(embree 3 REQUIRED)
 find_package(OpenImageIO REQUIRED)
-find_package(OpenCV 4 REQUIRED COMPONENTS core calib3d imgproc)
+find_package(OpenCV 4 REQUIRED COMPONENTS core calib3d imgproc aruco)
 find_package(tomlplusplus REQUIRED)

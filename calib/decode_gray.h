@@ -1,8 +1,9 @@
-// Gray-code pictures to projector pixels.
+// Pictures of Gray and XOR codes to projector pixels.
 #pragma once
 
 #include "calib/decoded_map.h"
 #include "sim/image.h"
+#include "sim/pattern_sequence.h"
 
 #include <glm/glm.hpp>
 
@@ -18,16 +19,17 @@ struct GrayDecodeOptions {
   double min_pair_difference_dn = 3;     ///< valid where every |pattern - inverse| is at least this
   double min_pair_fraction = 0.1;        ///< and at least this times (white - black)
   double min_pair_sigmas = 5;  ///< and at least this times √2·picture_noise_dn; 0: noise is not looked at
+  bool subpixel = false;       ///< places between pixels from stripes' edges (calib/gray_crossing.h)
 };
 
-/// Decodes a sequence as sim/pattern.h orders it (GraySequence of `projector_size`).
+/// Decodes a Gray or an XOR code.
 ///
-/// A bit is 1 where pattern > inverse; the column and the row are binary_from_gray of their bits. `u_px`,
-/// `v_px` are integers: the centres of projector pixels. `sigma_px` = 1/√12, the standard deviation of a
-/// uniform error of ±0.5 px (measured maps are a little better, and their errors are not independent from
-/// pixel to pixel). `confidence` = min over bits of |pattern - inverse| / (white - black), at most 1, and 0
-/// where white ≤ black; it is given for pixels that are not valid too. A code outside the projector is not
-/// valid.
+/// A bit is 1 where pattern > inverse; the column and the row are what word_code() makes of their bits.
+/// `u_px`, `v_px` are integers: the centres of projector pixels. `sigma_px` = 1/√12, the standard deviation
+/// of a uniform error of ±0.5 px (measured maps are a little better, and their errors are not independent
+/// from pixel to pixel). `confidence` = min over bits of |pattern - inverse| / (white - black), at most 1,
+/// and 0 where white ≤ black; it is given for pixels that are not valid too. A code outside the projector is
+/// not valid.
 ///
 /// Saturation is no error here: where pattern and inverse differ enough, the bit is right whatever the
 /// brightness. Validity and values equal those of OpenCV 4.6's GrayCodePattern::getProjPixel under its rule
@@ -35,16 +37,25 @@ struct GrayDecodeOptions {
 ///
 /// Throws InputError where the number of pictures is not that of the sequence, or a threshold is not finite
 /// or the stack is empty. The same bits for any number of threads.
+DecodedMap decode_gray(const CapturedStack& pictures, const PatternSequence& sequence,
+                       const GrayDecodeOptions& options = {});
+
+/// The same of a Gray code (sim/pattern.h) for `projector_size`.
 DecodedMap decode_gray(const CapturedStack& pictures, glm::ivec2 projector_size,
                        const GrayDecodeOptions& options = {});
 
-/// One standard deviation, in the stack's own DN, of one value of one picture, measured where white - black >
-/// `min_white_minus_black` (also in the stack's own DN).
-///
-/// Light adds up, so pattern + inverse = white + black at every pixel, on a stripe's edge too. The rest of
-/// pattern + inverse - white - black is the noise of four values: sigma = 1.4826·median(|rest|)/2, robust
-/// against pixels that saturate or move. It is taken from up to about 4000 pixels on a regular grid. 0 where
-/// nothing is lit.
+/// Columns, rows and validity alone, as integers: what decode_gray finds, in a quarter of the memory.
+struct GrayCodes {
+  Image<std::uint16_t> column, row;  ///< meaningful where valid
+  Image<std::uint8_t> valid;         ///< 1 or 0
+};
+
+/// Writes them into `codes`, whose memory is used again where the size is right.
+void decode_gray_codes(const CapturedStack& pictures, const PatternSequence& sequence,
+                       const GrayDecodeOptions& options, GrayCodes& codes);
+
+/// sum_noise_dn() of pairs: the pictures but the last two, two by two. Throws InputError where there are
+/// fewer than two pictures.
 double picture_noise_dn(const CapturedStack& pictures, double min_white_minus_black);
 
 }  // namespace laterna

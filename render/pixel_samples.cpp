@@ -10,13 +10,6 @@ namespace laterna {
 
 namespace {
 
-// The cells that a pixel is cut into.
-glm::ivec2 strata(int count) {
-  int rows = static_cast<int>(std::sqrt(double(count)));
-  while (count % rows != 0) --rows;
-  return {count / rows, rows};
-}
-
 using Philox = r123::Philox4x32;
 
 Philox::ctr_type draw(const PixelSamples& samples, std::uint32_t camera, const glm::ivec2& pixel,
@@ -44,6 +37,12 @@ int permuted(int sample, int count, const Philox::ctr_type& key) {
 
 }  // namespace
 
+glm::ivec2 cells(int count) {
+  int rows = static_cast<int>(std::sqrt(double(count)));
+  while (count % rows != 0) --rows;
+  return {count / rows, rows};
+}
+
 glm::vec2 stratified_square(const PixelSamples& samples, std::uint32_t camera, const glm::ivec2& pixel,
                             int sample, SampleUse use) {
   // Two times 16 bits for a sample; four samples share a draw.
@@ -51,10 +50,10 @@ glm::vec2 stratified_square(const PixelSamples& samples, std::uint32_t camera, c
   const int cell_index = use == SampleUse::pixel || samples.count == 1
                              ? sample
                              : permuted(sample, samples.count, draw(samples, camera, pixel, 0xffff, use));
-  const glm::ivec2 cells = strata(samples.count);
-  const glm::vec2 cell(cell_index % cells.x, cell_index / cells.x);
+  const glm::ivec2 grid = cells(samples.count);
+  const glm::vec2 cell(cell_index % grid.x, cell_index / grid.x);
   const glm::vec2 inside = (glm::vec2(bits & 0xffffu, bits >> 16) + 0.5f) * 0x1p-16f;
-  return (cell + inside) / glm::vec2(cells) - 0.5f;
+  return (cell + inside) / glm::vec2(grid) - 0.5f;
 }
 
 glm::vec2 disc_from_square(const glm::vec2& square) {

@@ -17,8 +17,12 @@ struct PixelSamples {
 /// What a ray's random point is for: points for different uses are independent.
 enum class SampleUse : std::uint32_t { pixel, aperture, airy };
 
-/// A point of [-0.5, 0.5)² for one ray. The square is cut into columns × rows = count cells, as near to
-/// square as count's divisors allow, and each ray is uniform in a cell of its own: Philox4x32-10 with counter
+/// Columns and rows into which a square is cut for `count` stratified samples: columns·rows = count, as near
+/// to square as count's divisors allow.
+glm::ivec2 cells(int count);
+
+/// A point of [-0.5, 0.5)² for one ray. The square is cut into cells(count), and each ray is uniform in a
+/// cell of its own: Philox4x32-10 with counter
 /// (x, y, 2¹⁶·use + sample/4, camera) under the key `seed`. Which ray has which cell: in order for
 /// SampleUse::pixel, else by a permutation that is drawn for each pixel and use, so that the mean over rays
 /// is that over all pairs of points (after Kensler, "Correlated multi-jittered sampling", 2013).

@@ -127,14 +127,17 @@ void add_tap(const LightEntry& entry, const Play& play, std::vector<BitTap>& tap
   taps.push_back({p.code(x.second, y.second), gain * right * below});
 }
 
+constexpr int all_sources = -1;  // and constant light
+
 template <class Tap>
-void sum_entries(Block& b, const Play& play, std::vector<Tap>& taps) {
+void sum_entries(Block& b, const Play& play, int source, std::vector<Tap>& taps) {
   const int count = play.show.frames();
   taps.clear();
   for (int i = 0; i < b.pixels; ++i) {
-    b.base[i] = static_cast<float>(play.scale * b.ambient[i]);
+    b.base[i] = source == all_sources ? static_cast<float>(play.scale * b.ambient[i]) : 0.0f;
     b.first_tap[i] = std::uint32_t(taps.size());
-    for (std::uint32_t e = b.begin[i]; e < b.begin[i + 1]; ++e) add_tap(b.entries[e], play, taps);
+    for (std::uint32_t e = b.begin[i]; e < b.begin[i + 1]; ++e)
+      if (source == all_sources || int(b.entries[e].source) == source) add_tap(b.entries[e], play, taps);
   }
   b.first_tap[b.pixels] = std::uint32_t(taps.size());
   b.scratch.resize(std::size_t(padded(count)) * block);
@@ -143,16 +146,15 @@ void sum_entries(Block& b, const Play& play, std::vector<Tap>& taps) {
 }
 
 // Fills b.levels.
-void sum_block(Block& b, const Play& play) {
-  if (play.show.binary()) return sum_entries(b, play, b.bits);
-  if (!play.added_light.empty()) return sum_entries(b, play, b.table);
-  if (play.lookup == Lookup::nearest) return sum_entries(b, play, b.nearest);
-  return sum_entries(b, play, b.bilinear);
+void sum_block(Block& b, const Play& play, int source) {
+  if (play.show.binary()) return sum_entries(b, play, source, b.bits);
+  if (!play.added_light.empty()) return sum_entries(b, play, source, b.table);
+  if (play.lookup == Lookup::nearest) return sum_entries(b, play, source, b.nearest);
+  return sum_entries(b, play, source, b.bilinear);
 }
 
-// Pictures from frames: what each of them integrates.
+// Adds to pictures what each of them integrates of a source's frames.
 void mix_frames(Block& b, const std::vector<PictureFrames>& pictures) {
-  b.mixed.assign(pictures.size() * block, 0);
   for (std::size_t k = 0; k < pictures.size(); ++k) {
     float* to = b.mixed.data() + k * block;
     for (const FrameShare& f : pictures[k]) {
@@ -162,16 +164,31 @@ void mix_frames(Block& b, const std::vector<PictureFrames>& pictures) {
   }
 }
 
-// The levels of every picture of a block on image row y.
-const float* picture_levels(Block& b, const Play& play, const std::vector<PictureFrames>& timeline) {
-  sum_block(b, play);
-  if (timeline.empty()) return b.levels.data();
-  mix_frames(b, timeline);
-  return b.mixed.data();
+// By source, the frames of each picture; empty without a timeline.
+using RowTimeline = std::vector<std::vector<PictureFrames>>;
+
+RowTimeline frames_of_row(const Show& show, int image_row) {
+  RowTimeline timeline;
+  if (!show.timeline.frames_of_row) return timeline;
+  for (int source = 0; source < int(show.sources.size()); ++source)
+    timeline.push_back(show.timeline.frames_of_row(image_row, source));
+  return timeline;
 }
 
-std::vector<PictureFrames> frames_of_row(const Show& show, int image_row) {
-  return show.timeline.frames_of_row ? show.timeline.frames_of_row(image_row) : std::vector<PictureFrames>();
+// The levels of every picture of a block.
+const float* picture_levels(Block& b, const Play& play, const RowTimeline& timeline) {
+  if (timeline.empty()) {
+    sum_block(b, play, all_sources);
+    return b.levels.data();
+  }
+  b.mixed.assign(std::size_t(play.show.pictures()) * block, 0);
+  for (std::size_t k = 0; k < b.mixed.size(); k += block)
+    for (int i = 0; i < b.pixels; ++i) b.mixed[k + i] = static_cast<float>(play.scale * b.ambient[i]);
+  for (int source = 0; source < int(timeline.size()); ++source) {
+    sum_block(b, play, source);
+    mix_frames(b, timeline[source]);
+  }
+  return b.mixed.data();
 }
 
 // One sensor reading of a block in every picture, row by row to the planes.
@@ -235,7 +252,7 @@ void play_region(const LightRows& rows, const Play& play, const Exposure& exposu
   std::vector<Number> dn;
   Block b;
   for (int y = 0; y < rows.region.height; ++y) {
-    const std::vector<PictureFrames> timeline = frames_of_row(play.show, rows.region.y + y);
+    const RowTimeline timeline = frames_of_row(play.show, rows.region.y + y);
     for_each_block(b, rows, y, out.width, [&](Block&, int x) {
       const Planes<Number> planes{stage.values.data() + x, width};
       if (has_two_levels(b, play, exposure)) return expand_block(b, play, exposure, planes);
@@ -281,7 +298,7 @@ ImageStack<float> play_luminance(const ImageRows& image, Lookup lookup, const Sh
   for_each_region(image, [&](const LightRows& rows, std::size_t) {
     Block b;
     for (int y = 0; y < rows.region.height; ++y) {
-      const std::vector<PictureFrames> timeline = frames_of_row(show, rows.region.y + y);
+      const RowTimeline timeline = frames_of_row(show, rows.region.y + y);
       for_each_block(b, rows, y, image.size.x, [&](Block&, int) {
         const float* levels = picture_levels(b, play, timeline);
         for (int k = 0; k < out.count; ++k)

@@ -18,18 +18,18 @@ struct AnyPatterns {
   AnyPatterns(const BinaryPatternStack& p) : bits(&p), width(p.width), height(p.height), count(p.count) {}
 };
 
-/// What share of a picture's exposure a frame of the patterns is shown for.
+/// A frame's share in a picture.
 struct FrameShare {
   int frame;
   float share;
 };
 using PictureFrames = std::vector<FrameShare>;
 
-/// Which frames each picture integrates: picture k of image row y is Σ share·frame. The shares of a picture
-/// add to 1, so that constant light stays.
+/// Which frames of each source a picture integrates: picture k of an image row is its constant light and,
+/// over the sources, Σ share·frame. A source that is lit all the time has shares that add to 1.
 struct Timeline {
   int pictures = 0;
-  std::function<std::vector<PictureFrames>(int image_row)> frames_of_row;  ///< one list per picture
+  std::function<std::vector<PictureFrames>(int image_row, int source)> frames_of_row;  ///< a list per picture
 };
 
 /// What is played: every source's stack, of one number of frames. Without a timeline picture k is frame k.

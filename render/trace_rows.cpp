@@ -4,6 +4,7 @@
 #include "render/effects/camera_defocus.h"
 #include "render/effects/diffraction.h"
 #include "render/effects/fill_factor.h"
+#include "render/effects/inter_reflection.h"
 #include "render/effects/response.h"
 #include "render/exposure.h"
 #include "sim/error.h"
@@ -19,7 +20,12 @@ namespace laterna {
 
 namespace {
 
-// The maps of one region, for one sample of each of its pixels.
+bool bounces(const Scene& scene) {
+  return scene.effects.inter_reflection && scene.inter_reflection.bounces > 0;
+}
+
+// The maps of one region, for one sample of each of its pixels: of what the camera sees, or of where one path
+// of each has come to; then the surface's albedo is the path's throughput.
 struct Maps {
   SurfaceMap surface;
   std::vector<LightMap> lights;  // the playing projector's, then the idle ones'
@@ -81,7 +87,7 @@ class Tracer {
   }
 
   void operator()(LightRows& rows) const {
-    if (samples_.count == 1)
+    if (samples_.count == 1 && !bounces(scene_))
       trace_centres(rows);
     else
       trace_samples(rows);
@@ -96,7 +102,7 @@ class Tracer {
 
   void trace_centres(LightRows& rows) const {
     Maps maps(rows.region, idle_);
-    trace(maps, {});
+    see(maps, {});
     direct_rows(maps.surface, maps.lights[0], maps.idle, scene_.ambient_lx, rows);
   }
 
@@ -105,28 +111,54 @@ class Tracer {
     RowBuilder builder(rows.region.size());
     SampleRays places;
     rows.ambient_cd_per_m2.assign(rows.region.size(), 0);
+    const double share = 1.0 / samples_.count;
     for (int sample = 0; sample < samples_.count; ++sample) {
-      place(rows.region, sample, places);
-      trace(maps, places);
-      collect(maps, rows, builder);
+      if (samples_.count > 1) place(rows.region, sample, places);
+      see(maps, places);
+      collect(maps, share, scene_.ambient_lx, rows, builder);
+      if (bounces(scene_)) reflect(maps, sample, share, rows, builder);
     }
     builder.finish(rows);
   }
 
-  void trace(Maps& maps, const SampleRays& places) const {
+  // What the camera sees, and the projectors' light on it.
+  void see(Maps& maps, const SampleRays& places) const {
     SurfaceMap& surface = maps.surface;
     const glm::vec2* offsets_px = places.offsets_px.empty() ? nullptr : places.offsets_px.data();
     const LensPoints lens{camera_.optics.focus_m.value_or(0), places.lens_m.data()};
     for (int tile_row = 0; tile_row * tile_edge < surface.height; ++tile_row) {
       trace_surface_tiles(rays_, view_, directions_, tile_row, surface, offsets_px,
                           places.lens_m.empty() ? nullptr : &lens);
-      for (std::size_t i = 0; i < views_.size(); ++i)
-        trace_light_tiles(rays_, views_[i], surface, tile_row, maps.lights[i]);
     }
+    light(maps);
     apply_surface_effects(surface, scene_);
     for (std::size_t i = 0; i < views_.size(); ++i)
       apply_light_effects(maps.lights[i], surface, rays_, scene_, *projectors_[i], camera_);
     apply_camera_effects(surface, rays_, scene_, camera_);
+  }
+
+  void light(Maps& maps) const {
+    for (std::size_t i = 0; i < views_.size(); ++i)
+      for (int tile_row = 0; tile_row * tile_edge < maps.surface.height; ++tile_row)
+        trace_light_tiles(rays_, views_[i], maps.surface, tile_row, maps.lights[i]);
+  }
+
+  // Adds what comes to the points that the camera sees by way of others. Overwrites the maps.
+  void reflect(Maps& maps, int sample, double share, LightRows& rows, RowBuilder& builder) const {
+    const auto [bounces, paths] = scene_.inter_reflection;
+    const SurfaceMap seen = maps.surface;
+    for (int path = 0; path < paths; ++path) {
+      maps.surface = seen;
+      for (int bounce = 0; bounce < bounces; ++bounce) {
+        follow_paths(rays_, scene_,
+                     {samples_.seed, std::uint32_t(camera_index_), sample, path, paths, bounce},
+                     maps.surface);
+        light(maps);
+        for (std::size_t i = 0; i < views_.size(); ++i)
+          apply_light_effects(maps.lights[i], maps.surface, rays_, scene_, *projectors_[i]);
+        collect(maps, share / paths, 0, rows, builder);
+      }
+    }
   }
 
   void place(const PixelRegion& region, int sample, SampleRays& places) const {
@@ -146,12 +178,12 @@ class Tracer {
     }
   }
 
-  void collect(const Maps& maps, LightRows& rows, RowBuilder& builder) const {
-    const double share = 1.0 / samples_.count;
+  void collect(const Maps& maps, double share, double ambient_lx, LightRows& rows,
+               RowBuilder& builder) const {
     const LightMap& light = maps.lights[0];
     for (std::size_t p = 0; p < rows.region.size(); ++p) {
       rows.ambient_cd_per_m2[p] +=
-          share * constant_luminance_cd_per_m2(maps.surface, maps.idle, scene_.ambient_lx, p);
+          share * constant_luminance_cd_per_m2(maps.surface, maps.idle, ambient_lx, p);
       if (!light.lit(p)) continue;
       const double albedo = maps.surface.albedo.values[p];
       builder.add(p, {light.u_px.values[p], light.v_px.values[p],
@@ -187,7 +219,8 @@ PixelSamples samples_of(const Scene& scene, int camera, std::uint64_t seed) {
   const Camera& c = scene.cameras[camera];
   const bool antialiasing = scene.effects.antialiasing;
   const bool spread = antialiasing || defocuses(scene, c) || diffracts(scene, c);
-  return {spread ? c.samples_per_pixel : 1, seed, antialiasing ? active_side_px(scene.effects, c.optics) : 0};
+  return {spread ? c.samples_per_pixel : 1, seed,
+          antialiasing || !spread ? active_side_px(scene.effects, c.optics) : 0};
 }
 
 std::vector<IdleProjector> idle_projectors(const Scene& scene, int projector) {
@@ -201,8 +234,17 @@ std::vector<IdleProjector> idle_projectors(const Scene& scene, int projector) {
 
 bool rows_are_direct(const Scene& scene, int camera) {
   const auto blurs = [&](const Projector& projector) { return panel_blur(scene, projector).has_value(); };
-  return samples_of(scene, camera, 0).count == 1 &&
+  return samples_of(scene, camera, 0).count == 1 && !bounces(scene) &&
          std::none_of(scene.projectors.begin(), scene.projectors.end(), blurs);
+}
+
+glm::ivec2 region_px_of(const Scene& scene, const PixelSamples& samples) {
+  // 2¹⁸ entries: 8 MiB, in memory twice while they are put in order.
+  constexpr std::int64_t most_entries = 1 << 18, tile_pixels = tile_edge * tile_edge;
+  const InterReflection& r = scene.inter_reflection;
+  const std::int64_t per_path = bounces(scene) ? std::int64_t(r.paths) * r.bounces : 0;
+  const std::int64_t tiles = most_entries / (samples.count * (1 + per_path) * tile_pixels);
+  return {tile_edge * std::clamp<int>(int(tiles), 1, ImageRows{}.region_px.x / tile_edge), tile_edge};
 }
 
 }  // namespace laterna

@@ -2,6 +2,7 @@
 
 #include "sim/error.h"
 #include "sim/image_file.h"
+#include "sim/pattern_json.h"
 #include "sim/plain_name.h"
 
 #include <fmt/format.h>
@@ -23,7 +24,7 @@ Json json_of(const CaptureSequence& s) {
             {"projector", s.projector},
             {"camera_size", {s.camera_size.x, s.camera_size.y}},
             {"projector_size", {s.projector_size.x, s.projector_size.y}},
-            {"patterns", s.patterns},
+            {"patterns", patterns_json(s.patterns)},
             {"bit_depth", s.bit_depth},
             {"saturation_cd_per_m2", s.saturation_cd_per_m2},
             {"pictures", s.pictures},
@@ -43,7 +44,7 @@ CaptureSequence sequence_of(const Json& json) {
   s.projector = json.at("projector");
   s.camera_size = size_of(json.at("camera_size"));
   s.projector_size = size_of(json.at("projector_size"));
-  s.patterns = json.at("patterns");
+  s.patterns = patterns_of(json.at("patterns"));
   s.bit_depth = json.value("bit_depth", 8);
   s.saturation_cd_per_m2 = json.value("saturation_cd_per_m2", 0.0);
   s.exposure_time_s = json.value("exposure_time_s", 0.0);
@@ -126,7 +127,7 @@ CaptureManifest read_manifest(const std::filesystem::path& folder) {
   return parse_manifest(text.str(), path.string());
 }
 
-CaptureSequence plain_sequence(const std::filesystem::path& folder, glm::ivec2 projector_size) {
+CaptureSequence plain_sequence(const std::filesystem::path& folder, const PatternSequence& patterns) {
   std::error_code failed;
   const std::filesystem::directory_iterator entries(folder, failed);
   if (failed)
@@ -134,7 +135,8 @@ CaptureSequence plain_sequence(const std::filesystem::path& folder, glm::ivec2 p
   CaptureSequence sequence;
   sequence.camera = "camera";
   sequence.projector = "projector";
-  sequence.projector_size = projector_size;
+  sequence.projector_size = patterns.projector_size;
+  sequence.patterns = patterns.parameters;
   for (const auto& entry : entries) {
     if (entry.is_regular_file() && is_picture(entry.path()))
       sequence.pictures.push_back(entry.path().filename().string());

@@ -2,11 +2,13 @@
 //
 //   DIR/manifest.json                what this header describes
 //   DIR/scene.toml, DIR/meshes/      the scene, self-contained
-//   DIR/<camera>/<projector>/NN.png  the pictures of one sequence, in the order of sim/pattern.h
+//   DIR/<camera>/<projector>/NN.png  the pictures of one sequence, in the order of
+//                                   sim/pattern_sequence.h
 //   DIR/truth/<camera>_<projector>.exr  per camera pixel: projector u, v, lit, depth, normal
 #pragma once
 
 #include "sim/image.h"
+#include "sim/pattern_sequence.h"
 
 #include <glm/glm.hpp>
 #include <nlohmann/json_fwd.hpp>
@@ -22,7 +24,7 @@ namespace laterna {
 struct CaptureSequence {
   std::string camera, projector;
   glm::ivec2 camera_size{0, 0}, projector_size{0, 0};
-  std::string patterns = "gray";
+  PatternParameters patterns{};
   int bit_depth = 8;
   double saturation_cd_per_m2 = 0;    ///< the luminance that fills the scale; 0: not known
   double exposure_time_s = 0;         ///< of an EMVA 1288 sensor; 0: not known, and then not written
@@ -31,7 +33,9 @@ struct CaptureSequence {
 };
 
 /// manifest.json: {"format": "laterna-capture", "version": 1, "scene", "seed", "matrices", "sequences":
-/// [...]}, each sequence with the fields of CaptureSequence as keys and sizes as [W, H].
+/// [...]}, each sequence with the fields of CaptureSequence as keys and sizes as [W, H]. `patterns` is
+/// "gray", or an object of what [patterns] of a scene file says of the family, as {"kind": "gray_phase",
+/// "steps": 4}; keys at their defaults may be absent.
 ///
 /// `laterna capture --format` chooses how a sequence's pictures stand on disk. All keep the digital numbers,
 /// 8 bits as 8 and 9 to 16 bits as 16, exactly:
@@ -40,8 +44,7 @@ struct CaptureSequence {
 ///   tif        the same as uncompressed TIFF: written as fast as the disk takes them
 ///   pgm        the same as binary PGM; cameras of 8 bits only
 ///   exr        the same as ZIP-packed EXR, the numbers unscaled: half floats for 8 bits (exact to 2048),
-///   single
-///              floats for more (exact to 2²⁴)
+///              single floats for more (exact to 2²⁴)
 ///   tif-pages  CAMERA/PROJECTOR/pages.tif alone: one uncompressed page per picture
 struct CaptureManifest {
   std::string scene;  ///< scene file, relative to the folder; empty: none
@@ -60,8 +63,8 @@ CaptureManifest read_manifest(const std::filesystem::path& folder);
 
 /// A folder of plain pictures, as a real projector and camera leave them: every .png, .tif, .pgm, .bmp or
 /// .jpg of the folder in the order of their names (numbers compared as numbers) is one picture of one
-/// sequence.
-CaptureSequence plain_sequence(const std::filesystem::path& folder, glm::ivec2 projector_size);
+/// sequence of the given family.
+CaptureSequence plain_sequence(const std::filesystem::path& folder, const PatternSequence& patterns);
 
 /// The pictures of a sequence. Throws InputError where one is missing, unreadable, or of another size or
 /// depth.

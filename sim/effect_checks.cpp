@@ -1,10 +1,14 @@
 #include "sim/effect_checks.h"
 
 #include "sim/error.h"
+#include "sim/field_text.h"
+#include "sim/scene_fields.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
+#include <utility>
 
 namespace laterna {
 
@@ -84,14 +88,61 @@ void check_optics(const SceneSpec& scene) {
 }
 
 void check_slide(const SceneSpec& scene) {
-  const bool is_slide = scene.patterns.kind == PatternKind::slide;
+  const PatternKind kind = scene.patterns.parameters.kind;
+  const bool is_slide = kind == PatternKind::slide, is_list = kind == PatternKind::pictures;
   if (scene.effects.slide && !is_slide)
-    throw InputError("[effects]: slide is on, but kind of [patterns] is \"gray\", expected \"slide\"");
+    throw InputError(fmt::format("[effects]: slide is on, but kind of [patterns] is {}, expected \"slide\"",
+                                 toml_text(kind)));
   if (!scene.effects.slide && is_slide)
     throw InputError(
         "[patterns]: kind is \"slide\", but slide of [effects] is off, expected slide = true there");
   if (is_slide && scene.patterns.file.empty())
     throw InputError("[effects]: slide is on, but [patterns] has no key file, expected a picture");
+  if (is_list == scene.patterns.files.empty())
+    throw InputError(is_list ? "[patterns]: kind is \"pictures\", but files is empty, expected pictures"
+                             : "[patterns]: files is given, but kind is not \"pictures\"");
+}
+
+void check_inter_reflection(const SceneSpec& scene) {
+  if (!scene.effects.inter_reflection) return;
+  const auto [bounces, paths] = scene.inter_reflection;
+  if (bounces < 1)
+    throw InputError(
+        "[effects]: inter_reflection is on, but [inter_reflection] has no bounces, expected at least 1");
+  const Effects& on = scene.effects;
+  const bool spread = on.antialiasing || on.camera_defocus || on.diffraction;
+  for (const CameraSpec& camera : scene.cameras) {
+    const long samples = spread ? camera.samples_per_pixel : 1;
+    const long entries = samples * bounces * paths;
+    if (entries > most_entries_per_pixel) {
+      throw InputError(
+          fmt::format("[inter_reflection]: {} samples per pixel × {} paths × {} bounces = {}, expected at "
+                      "most {}",
+                      samples, paths, bounces, entries, most_entries_per_pixel));
+    }
+  }
+}
+
+void check_colour_and_timing(const SceneSpec& scene) {
+  const Effects& on = scene.effects;
+  const auto filtered = [](const CameraSpec& c) { return c.colour_filter != ColourFilter::mono; };
+  if (on.colour && scene.colours.empty() && !comes_from_files(scene.patterns.parameters.kind) &&
+      scene.patterns.colour == PatternsSpec{}.colour &&
+      std::none_of(scene.cameras.begin(), scene.cameras.end(), filtered))
+    throw InputError(
+        "[effects]: colour is on, but nothing has a colour, expected [[colour]], colour of [patterns], a "
+        "slide, or colour_filter of a [[camera]]");
+  if (on.timing && scene.timing == Timing{})
+    throw InputError("[effects]: timing is on, but [timing] has no key, expected at least one");
+  if (on.timing && scene.timing.colour_wheel && !on.colour)
+    throw InputError("[timing]: colour_wheel is on, but colour of [effects] is off, expected it on");
+  expect_given(on.camera_glare, "camera_glare", "camera", "veiling_glare", scene.cameras,
+               [](const CameraSpec& c) { return c.veiling_glare > 0; });
+}
+
+template <class Devices>
+bool has_device(const Devices& devices, const std::string& name) {
+  return std::any_of(devices.begin(), devices.end(), [&](const auto& d) { return d.device.name == name; });
 }
 
 }  // namespace
@@ -146,10 +197,39 @@ void check(const Gloss& gloss, double albedo) {
   }
 }
 
+void check_references(const SceneSpec& named) {
+  std::set<std::pair<std::string, std::string>> pairs;
+  const auto fail = [](const std::string& where, const char* kind, const std::string& name) {
+    throw InputError(
+        fmt::format("{}: no {} is called \"{}\", expected one of the scene's", where, kind, name));
+  };
+  for (const ColourSpec& c : named.colours) {
+    if (!has_device(named.projectors, c.projector)) fail("[[colour]]", "projector", c.projector);
+    if (!has_device(named.cameras, c.camera)) fail("[[colour]]", "camera", c.camera);
+    if (!pairs.insert({c.projector, c.camera}).second)
+      throw InputError(
+          fmt::format("[[colour]]: \"{}\" and \"{}\" have two mixings, expected one", c.projector, c.camera));
+  }
+  const std::string& moved = named.timing.moved.device;
+  if (!moved.empty() && !has_device(named.projectors, moved) && !has_device(named.cameras, moved))
+    fail("[timing]: moved", "projector or camera", moved);
+}
+
+void check(const MeshEffects& effects, double albedo) {
+  check(effects.gloss, albedo);
+  if (!effects.displacement_map.empty() && effects.displacement == 0)
+    throw InputError(
+        "displacement_map is given, but displacement is missing or 0, expected how far white moves");
+  if (effects.displacement_map.empty() && effects.displacement != 0)
+    throw InputError("displacement is given, but displacement_map is missing, expected a picture file");
+}
+
 void check_effects(const SceneSpec& scene) {
   check_projector_effects(scene);
   check_slide(scene);
+  check_inter_reflection(scene);
   check_optics(scene);
+  check_colour_and_timing(scene);
   const Effects& on = scene.effects;
   expect_given(on.camera_vignetting, "camera_vignetting", "camera", "vignetting", scene.cameras,
                [](const CameraSpec& c) { return c.vignetting.model != VignettingModel::none; });
@@ -157,6 +237,8 @@ void check_effects(const SceneSpec& scene) {
                [](const CameraSpec& c) { return c.samples_per_pixel > 1; });
   expect_given(on.gloss, "gloss", "mesh", "gloss", scene.meshes,
                [](const MeshSpec& m) { return m.effects.gloss.model != GlossModel::none; });
+  expect_given(on.displacement, "displacement", "mesh", "displacement_map", scene.meshes,
+               [](const MeshSpec& m) { return !m.effects.displacement_map.empty(); });
   expect_given(on.normal_map, "normal_map", "mesh", "normal_map", scene.meshes,
                [](const MeshSpec& m) { return !m.effects.normal_map.empty(); });
   expect_given(on.solid_albedo, "solid_albedo", "mesh", "solid", scene.meshes,

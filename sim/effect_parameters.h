@@ -84,10 +84,41 @@ struct Solid {
   bool operator==(const Solid&) const = default;
 };
 
+/// Which primary a camera's pixel is made for: rows of the mosaic from the image's upper left corner.
+enum class ColourFilter { mono, bayer_rggb, bayer_bggr, bayer_grbg, bayer_gbrg };
+
+/// A device that stands elsewhere from some picture on.
+struct RigMove {
+  std::string device{};  ///< empty: nothing moves
+  int from_picture = 0;
+  glm::dvec3 rotation_vector_rad{0, 0, 0}, translation{0, 0, 0};  ///< in the device's frame
+  bool operator==(const RigMove&) const = default;
+};
+
+/// When pictures are shown and when they are taken. One frame of the projector is the unit of time.
+struct Timing {
+  std::optional<int> dropped_frame{}, repeated_frame{};
+  int frames_per_pattern = 1;
+  double exposure_frames = 1, exposure_delay_frames = 0, rolling_shutter_frames = 0;
+  bool colour_wheel = false, bit_planes = false;
+  RigMove moved{};
+  bool operator==(const Timing&) const = default;
+};
+
+/// Light that goes from surface to surface before it comes to the camera.
+struct InterReflection {
+  int bounces = 0;  ///< the most surfaces on the way, that which the camera sees not counted
+  int paths = 16;   ///< for each camera sample
+  bool operator==(const InterReflection&) const = default;
+};
+
 struct MeshEffects {
   Gloss gloss{};
   Solid solid{};
-  std::string normal_map{};  ///< a picture file
+  std::string normal_map{};        ///< a picture file
+  std::string displacement_map{};  ///< a picture file
+  double displacement = 0;         ///< where the map is white, in the mesh file's unit; signed
+  double displacement_edge_px = 1;
   bool operator==(const MeshEffects&) const = default;
 };
 

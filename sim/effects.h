@@ -15,6 +15,8 @@ struct Effects {
   bool projector_lens = true, camera_lens = true;
   bool antialiasing = false, camera_defocus = false, projector_defocus = false;
   bool diffraction = false, fill_factor = false;
+  bool inter_reflection = false, displacement = false;
+  bool colour = false, timing = false, camera_glare = false;
   bool operator==(const Effects&) const = default;
 };
 
@@ -50,6 +52,7 @@ inline constexpr auto all_effects = std::to_array<EffectSwitch>({
     {"slide", "pattern", "Needs `kind = \"slide\"` and `file` of [patterns].", &Effects::slide},
     {"gloss", "weight", "Needs `gloss` of a [[mesh]].", &Effects::gloss},
     {"normal_map", "weight", "Needs `normal_map` of a [[mesh]].", &Effects::normal_map},
+    {"displacement", "surface", "Needs `displacement_map` of a [[mesh]].", &Effects::displacement},
     {"solid_albedo", "surface", "Needs `solid` of a [[mesh]].", &Effects::solid_albedo},
     {"response", "pattern", "Needs `response_exponent` or `response_table` of a [[projector]].",
      &Effects::response},
@@ -68,6 +71,15 @@ inline constexpr auto all_effects = std::to_array<EffectSwitch>({
     {"fill_factor", "rows",
      "Needs `fill_factor` below 1 of a [[projector]], or, with `antialiasing`, of a [[camera]].",
      &Effects::fill_factor},
+    {"inter_reflection", "rows",
+     "Surfaces light each other, diffusely. Needs `bounces` above 0 of [inter_reflection].",
+     &Effects::inter_reflection},
+    {"colour", "weight",
+     "Projectors have a red, a green and a blue primary. Needs a coloured slide, `colour` of [patterns], "
+     "[[colour]], or a `colour_filter` of a [[camera]].",
+     &Effects::colour},
+    {"timing", "replay", "Needs [timing].", &Effects::timing},
+    {"camera_glare", "replay", "Needs `veiling_glare` of a [[camera]].", &Effects::camera_glare},
 });
 
 /// Whether the panel shows anything but the pattern sequence as it stands.

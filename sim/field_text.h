@@ -35,6 +35,9 @@ std::string toml_text(const glm::vec<n, T>& value) {
 inline std::string toml_text(const std::vector<double>& value) {
   return toml_list(value.data(), value.size());
 }
+inline std::string toml_text(const std::vector<std::string>& value) {
+  return toml_list(value.data(), value.size());
+}
 inline std::string toml_text(const std::array<double, 4>& value) {
   return toml_list(value.data(), value.size());
 }
@@ -97,6 +100,7 @@ std::string expected_text(const Field& field) {
   if constexpr (std::is_same_v<T, double>) return "a number" + bounded;
   if constexpr (std::is_same_v<T, std::string>) return "a string";
   if constexpr (std::is_same_v<T, std::vector<double>>) return "an array of numbers" + bounded;
+  if constexpr (std::is_same_v<T, std::vector<std::string>>) return "an array of strings";
   if constexpr (std::is_same_v<T, Matrix3x4>) return "3 rows of 4 numbers" + bounded;
   if constexpr (std::is_same_v<T, glm::ivec2>) return "2 integers" + bounded;
   if constexpr (std::is_same_v<T, glm::dvec2>) return "2 numbers" + bounded;

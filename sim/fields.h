@@ -8,9 +8,9 @@
 //
 // A visitor is anything with `operator()(const Field&, T&)` for each type of value that a noun holds: bool,
 // int, std::uint64_t, double, std::string, an enumeration with names_of(), glm vectors, Matrix3x4,
-// std::vector<double>, std::optional of these, a described noun (a table) and a std::vector of described
-// nouns (an array of tables). The default of a field is its value in a value-initialised noun, and is written
-// nowhere else.
+// std::vector<double>, std::vector<std::string>, std::optional of these, a described noun (a table) and a
+// std::vector of described nouns (an array of tables). The default of a field is its value in a
+// value-initialised noun, and is written nowhere else.
 #pragma once
 
 #include <glm/glm.hpp>

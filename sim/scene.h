@@ -7,10 +7,12 @@
 #include "sim/image.h"
 #include "sim/lookup.h"
 #include "sim/mesh.h"
+#include "sim/pattern_sequence.h"
 #include "sim/sensor.h"
 
 #include <glm/glm.hpp>
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -33,6 +35,8 @@ struct Object {
   std::uint64_t seed = 1;  ///< draws the solid noise
   /// Tangent-space normals, each channel 0 to 1: n = 2·rgb - 1. Empty where effects.normal_map is.
   std::shared_ptr<const Image<glm::vec3>> normal_map{};
+  /// Heights, linear, 0 to 1. Empty where effects.displacement_map is.
+  std::shared_ptr<const Image<float>> displacement_map{};
 };
 
 /// A projector: a device that emits.
@@ -54,14 +58,21 @@ struct Camera {
   std::shared_ptr<const Image<float>> vignetting_map{};  ///< empty where `vignetting` has none
   int samples_per_pixel = 1;  ///< rays, with antialiasing, camera_defocus or diffraction
   Optics optics{};
+  ColourFilter colour_filter = ColourFilter::mono;  ///< with colour
+  double veiling_glare = 0;  ///< share of the light that the lens scatters over the image
 };
 
-enum class PatternKind { gray, slide };  ///< slide: one picture from a file
-
-/// The picture that a slide projector shows.
+/// A picture of the user's that a projector shows.
 struct Slide {
   Image<float> light;     ///< linear, 0 to 1
   bool is_linear = true;  ///< whether 8-bit values for it are linear too; else they follow the sRGB curve
+  std::vector<Image<float>> primaries{};  ///< its red, green and blue light; empty where it is grey
+};
+
+/// How a camera sees a projector's primaries.
+struct ColourMixing {
+  int projector, camera;               ///< indices into the scene
+  std::array<glm::dvec3, 3> channels;  ///< what red, green and blue pixels see of each primary's light
 };
 
 /// The whole scene.
@@ -70,9 +81,15 @@ struct Scene {
   std::vector<Projector> projectors;
   std::vector<Camera> cameras;
   double ambient_lx = 0;  ///< uniform illuminance on every surface, from everywhere
-  PatternKind patterns = PatternKind::gray;
+  PatternParameters patterns{};
   Effects effects{};
+  InterReflection inter_reflection{};
   std::shared_ptr<const Slide> slide{};  ///< where effects.slide is on
+  /// Where patterns.kind is pictures, in their order; of one size and one kind of values.
+  std::shared_ptr<const std::vector<Slide>> pictures{};
+  glm::dvec3 pattern_colour{1, 1, 1};   ///< share of each primary's light that patterns are shown with
+  std::vector<ColourMixing> mixings{};  ///< of the pairs that have one
+  Timing timing{};
 };
 
 }  // namespace laterna

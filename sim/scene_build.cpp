@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <map>
@@ -94,6 +95,44 @@ Image<float> read_fractions(const std::filesystem::path& path, Encoding encoding
   return map;
 }
 
+bool is_grey(const glm::vec3& rgb) { return rgb.x == rgb.y && rgb.y == rgb.z; }
+
+// Red, green and blue; none where all pixels are grey.
+std::vector<Image<float>> read_primaries(const std::filesystem::path& path, Encoding encoding) {
+  const Image<glm::vec3> rgb = read_rgb_float(path, encoding);
+  if (std::all_of(rgb.values.begin(), rgb.values.end(), is_grey)) return {};
+  std::vector<Image<float>> primaries(3, Image<float>(rgb.width, rgb.height));
+  for (std::size_t i = 0; i < 3 * rgb.values.size(); ++i) {
+    const float value = rgb.values[i / 3][int(i % 3)];
+    if (!(value >= 0 && value <= 1))
+      throw InputError(fmt::format("{}: a channel of a pixel is {}, expected 0 to 1", path.string(), value));
+    primaries[i % 3].values[i / 3] = value;
+  }
+  return primaries;
+}
+
+Slide read_slide(const PatternsSpec& patterns, const std::filesystem::path& path) {
+  return about("[patterns]", [&] {
+    return Slide{read_fractions(path, patterns.encoding), patterns.encoding == Encoding::linear,
+                 read_primaries(path, patterns.encoding)};
+  });
+}
+
+std::vector<Slide> read_slides(const PatternsSpec& patterns, const std::filesystem::path& folder) {
+  std::vector<Slide> slides;
+  for (const std::string& file : patterns.files) slides.push_back(read_slide(patterns, folder / file));
+  return slides;
+}
+
+/// Whether each projector can show the sequence; behind a scaler, another size is asked for when it does.
+void check_patterns(const Scene& scene) {
+  if (scene.effects.scaler) return;
+  for (const Projector& projector : scene.projectors)
+    about(heading("projector", projector.device.name), [&] {
+      validate(PatternSequence{scene.patterns, projector.device.intrinsics.size});
+    });
+}
+
 std::shared_ptr<const Image<float>> vignetting_map(const Vignetting& vignetting,
                                                    const std::filesystem::path& folder) {
   if (vignetting.model != VignettingModel::map) return {};
@@ -119,6 +158,15 @@ void add_normal_map(Object& object, const std::filesystem::path& folder) {
   object.normal_map = read_normal_map(folder / object.effects.normal_map);
 }
 
+void add_displacement_map(Object& object, const std::filesystem::path& folder) {
+  const std::string& file = object.effects.displacement_map;
+  if (file.empty()) return;
+  if (object.mesh.texture_coordinates.empty())
+    throw InputError("displacement_map is given, but the mesh has no texture coordinates");
+  object.displacement_map =
+      std::make_shared<const Image<float>>(read_fractions(folder / file, Encoding::linear));
+}
+
 Object build_object(const MeshSpec& spec, const std::filesystem::path& folder, Maps& maps) {
   Object object{.name = spec.name,
                 .mesh = {},
@@ -127,7 +175,8 @@ Object build_object(const MeshSpec& spec, const std::filesystem::path& folder, M
                 .albedo_map = {},
                 .effects = spec.effects,
                 .seed = spec.seed,
-                .normal_map = {}};
+                .normal_map = {},
+                .displacement_map = {}};
   if (spec.file.empty()) {
     object.mesh = make_shape({spec.shape, spec.shape_size, spec.detail, spec.seed});
   } else {
@@ -136,6 +185,7 @@ Object build_object(const MeshSpec& spec, const std::filesystem::path& folder, M
   validate(object.mesh, spec.file.empty() ? spec.shape : spec.file);
   expect_near(object.mesh, object.world_from_object);
   add_normal_map(object, folder);
+  add_displacement_map(object, folder);
   if (spec.albedo_map.empty()) return object;
   if (object.mesh.texture_coordinates.empty())
     throw InputError("albedo_map is given, but the mesh has no texture coordinates");
@@ -146,6 +196,19 @@ Object build_object(const MeshSpec& spec, const std::filesystem::path& folder, M
   }
   object.albedo_map = map;
   return object;
+}
+
+template <class Spec>
+int index_of(const std::vector<Spec>& devices, const std::string& name) {
+  return int(
+      std::find_if(devices.begin(), devices.end(), [&](const Spec& d) { return d.device.name == name; }) -
+      devices.begin());
+}
+
+ColourMixing build_mixing(const ColourSpec& spec, const SceneSpec& named) {
+  ColourMixing mixing{index_of(named.projectors, spec.projector), index_of(named.cameras, spec.camera), {}};
+  for (int i = 0; i < 9; ++i) mixing.channels[i / 3][i % 3] = spec.mixing[i];
+  return mixing;
 }
 
 template <class Spec>
@@ -194,7 +257,7 @@ void check(const MeshSpec& mesh) {
                                          : "file and shape are both given, expected one of the two");
     }
     world_from_file(mesh);
-    check(mesh.effects.gloss, mesh.albedo);
+    check(mesh.effects, mesh.albedo);
   });
 }
 
@@ -206,6 +269,13 @@ void check(const ProjectorSpec& projector) {
 void check(const CameraSpec& camera) {
   check_device(camera.device, "camera");
   about(heading("camera", camera.device.name), [&] { check(camera.vignetting); });
+}
+
+void check(const ColourSpec& colour) {
+  if (colour.projector.empty() || colour.camera.empty())
+    throw InputError("[[colour]]: the key projector or camera is missing, expected the names of both");
+  if (colour.mixing.size() != 9)
+    throw InputError(fmt::format("[[colour]]: mixing has {} numbers, expected 9", colour.mixing.size()));
 }
 
 void check(const SceneSpec& scene) {
@@ -222,6 +292,7 @@ void check(const SceneSpec& scene) {
   };
   for (const ProjectorSpec& projector : named.projectors) add("projector", projector.device.name);
   for (const CameraSpec& camera : named.cameras) add("camera", camera.device.name);
+  check_references(named);
 }
 
 SceneSpec with_names(SceneSpec spec) {
@@ -238,9 +309,14 @@ Scene build_scene(const SceneSpec& spec, const std::filesystem::path& folder) {
               .projectors = {},
               .cameras = {},
               .ambient_lx = spec.ambient_lx,
-              .patterns = spec.patterns.kind,
+              .patterns = spec.patterns.parameters,
               .effects = spec.effects,
-              .slide = {}};
+              .inter_reflection = spec.inter_reflection,
+              .slide = {},
+              .pictures = {},
+              .pattern_colour = spec.patterns.colour,
+              .mixings = {},
+              .timing = spec.timing};
   const SceneSpec named = with_names(spec);
   Maps maps;
   for (const MeshSpec& mesh : named.meshes) {
@@ -259,15 +335,15 @@ Scene build_scene(const SceneSpec& spec, const std::filesystem::path& folder) {
     check(c);
     scene.cameras.push_back({device_of(c.device, folder, what), c.sensor, c.vignetting,
                              about(what, [&] { return vignetting_map(c.vignetting, folder); }),
-                             c.samples_per_pixel, c.optics});
+                             c.samples_per_pixel, c.optics, c.colour_filter, c.veiling_glare});
   }
   switch_off_lenses(scene);
-  if (spec.effects.slide) {
-    scene.slide = std::make_shared<const Slide>(
-        Slide{about("[patterns]",
-                    [&] { return read_fractions(folder / spec.patterns.file, spec.patterns.encoding); }),
-              spec.patterns.encoding == Encoding::linear});
-  }
+  if (spec.effects.slide)
+    scene.slide = std::make_shared<const Slide>(read_slide(spec.patterns, folder / spec.patterns.file));
+  if (spec.patterns.parameters.kind == PatternKind::pictures)
+    scene.pictures = std::make_shared<const std::vector<Slide>>(read_slides(spec.patterns, folder));
+  check_patterns(scene);
+  for (const ColourSpec& c : named.colours) scene.mixings.push_back(build_mixing(c, named));
   return scene;
 }
 

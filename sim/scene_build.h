@@ -14,8 +14,10 @@ namespace laterna {
 void check(const MeshSpec& mesh);
 void check(const ProjectorSpec& projector);
 void check(const CameraSpec& camera);
+void check(const ColourSpec& colour);
 
-/// What concerns the scene as a whole: at least one mesh, and no name that two devices share. A scene without
+/// What concerns the scene as a whole: at least one mesh, no name that two devices share, none that
+/// [[colour]] or [timing] knows alone, and what the effects need (sim/effect_checks.h). A scene without
 /// projector or camera is sound; the commands that need one say so.
 void check(const SceneSpec& scene);
 

@@ -28,7 +28,9 @@ inline std::span<const char* const> names_of(SensorKind) {
   return names;
 }
 inline std::span<const char* const> names_of(PatternKind) {
-  static constexpr const char* names[] = {"gray", "slide"};
+  static constexpr const char* names[] = {
+      "gray",        "slide",    "gray_phase", "phase",   "multi_frequency",
+      "micro_phase", "xor_gray", "chessboard", "charuco", "pictures"};
   return names;
 }
 inline std::span<const char* const> names_of(VignettingModel) {
@@ -41,6 +43,10 @@ inline std::span<const char* const> names_of(GlossModel) {
 }
 inline std::span<const char* const> names_of(SolidKind) {
   static constexpr const char* names[] = {"none", "checker", "noise"};
+  return names;
+}
+inline std::span<const char* const> names_of(ColourFilter) {
+  static constexpr const char* names[] = {"mono", "bayer_rggb", "bayer_bggr", "bayer_grbg", "bayer_gbrg"};
   return names;
 }
 
@@ -213,6 +219,25 @@ void describe(Visitor& visit, MeshEffects& effects) {
               .sentence = "A colour picture of normals: red along s, green along t, blue outwards, each 0 to "
                           "1 for -1 to 1; relative to the scene file."},
         effects.normal_map);
+  visit(Field{.key = "displacement_map",
+              .sentence =
+                  "A picture of heights, linear, 0 to 1, through the mesh's texture coordinates; 16 bits or "
+                  "floats give no steps; relative to the scene file."},
+        effects.displacement_map);
+  visit(Field{.key = "displacement",
+              .sentence =
+                  "How far white moves the surface outwards along its smooth normal (negative: inwards), in "
+                  "the mesh file's unit, before `scale`; black stays.",
+              .low = -1e6,
+              .high = 1e6},
+        effects.displacement);
+  visit(Field{.key = "displacement_edge_px",
+              .unit = "px",
+              .sentence =
+                  "The mesh is refined until no edge is longer than this many pixels of displacement_map.",
+              .low = 0.1,
+              .high = 16384},
+        effects.displacement_edge_px);
 }
 
 template <class Visitor>
@@ -564,22 +589,171 @@ void describe(Visitor& visit, CameraSpec& camera) {
               .high = most_samples_per_pixel},
         camera.samples_per_pixel);
   describe(visit, camera.optics);
+  visit(Field{.key = "colour_filter",
+              .sentence = "With `colour`: before each pixel. A Bayer camera's pictures are the raw mosaic."},
+        camera.colour_filter);
+  visit(Field{.key = "veiling_glare",
+              .sentence = "With `camera_glare`: share of the light that the lens scatters evenly over the "
+                          "image.",
+              .low = 0,
+              .high = 1},
+        camera.veiling_glare);
+}
+
+template <class Visitor>
+void describe(Visitor& visit, PatternParameters& patterns) {
+  visit(Field{.key = "kind",
+              .sentence = "gray: Gray code columns and rows with their inverses, white, black. xor_gray: its "
+                          "bits without wide stripes. gray_phase: Gray code, then shifted sinusoids. phase: "
+                          "two periods, the second as wide as the projector. multi_frequency, micro_phase: "
+                          "several periods. chessboard, charuco: a board. slide: one picture. pictures: a "
+                          "list of them."},
+        patterns.kind);
+  visit(Field{.key = "steps", .sentence = "Pictures of each sinusoid.", .low = 3, .high = 64},
+        patterns.steps);
+  visit(Field{.key = "pitch_px",
+              .unit = "px",
+              .sentence = "Period of the sinusoid, the finest where there are several.",
+              .low = 2,
+              .high = 1e5},
+        patterns.pitch_px);
+  visit(Field{.key = "pitches_px",
+              .unit = "px",
+              .sentence = "Periods of multi_frequency and micro_phase; absent: chosen from `pitch_px`.",
+              .low = 2,
+              .high = 1e5},
+        patterns.pitches_px);
+  visit(Field{.key = "xor_stripe_px",
+              .unit = "px",
+              .sentence = "Of xor_gray: the stripes that the other bits are combined with, a power of two.",
+              .low = 2,
+              .high = 1024},
+        patterns.xor_stripe_px);
+  visit(
+      Field{
+          .key = "square_px", .unit = "px", .sentence = "Side of a board's squares.", .low = 8, .high = 4096},
+      patterns.square_px);
 }
 
 template <class Visitor>
 void describe(Visitor& visit, PatternsSpec& patterns) {
-  visit(Field{.key = "kind",
-              .sentence = "gray: Gray code columns and rows with their inverses, white, black. slide: one "
-                          "picture."},
-        patterns.kind);
+  describe(visit, patterns.parameters);
   visit(Field{.key = "file",
               .sentence = "The slide, a picture of the projector's size (or of the scaler's `input_size`); "
                           "colour becomes grey; relative to the scene file."},
         patterns.file);
+  visit(Field{.key = "files",
+              .sentence = "The pictures of kind \"pictures\", in their order, each as `file` is."},
+        patterns.files);
   visit(Field{.key = "encoding",
               .sentence = "What the integers of an 8- or 16-bit slide mean: \"linear\" where `response` is "
                           "to turn them into light."},
         patterns.encoding);
+  visit(Field{.key = "colour",
+              .sentence = "With `colour` of [effects]: the share of its light with which each primary, red, "
+                          "green and blue, plays.",
+              .low = 0,
+              .high = 1},
+        patterns.colour);
+}
+
+template <class Visitor>
+void describe(Visitor& visit, ColourSpec& colour) {
+  visit(Field{.key = "projector", .sentence = "Its name."}, colour.projector);
+  visit(Field{.key = "camera", .sentence = "Its name."}, colour.camera);
+  visit(Field{.key = "mixing",
+              .sentence = "9 numbers row by row: what the camera's red, green and blue channel see of the "
+                          "projector's red, green and blue primary. A mono camera sees the mean of the rows.",
+              .low = 0,
+              .high = 1000},
+        colour.mixing);
+}
+
+template <class Visitor>
+void describe(Visitor& visit, RigMove& moved) {
+  visit(Field{.key = "device", .sentence = "Name of a projector or camera. Absent: nothing moves."},
+        moved.device);
+  visit(Field{.key = "from_picture",
+              .sentence = "The first picture of a sequence that sees it there.",
+              .low = 0,
+              .high = 1e9},
+        moved.from_picture);
+  visit(Field{.key = "rotation_vector_rad",
+              .unit = "rad",
+              .sentence = "Rotation R, axis times angle, and",
+              .low = -1000,
+              .high = 1000},
+        moved.rotation_vector_rad);
+  visit(Field{.key = "translation",
+              .unit = "m",
+              .sentence = "translation t: there x_device = R·x + t of what was x in the device's frame.",
+              .low = -farthest_m,
+              .high = farthest_m},
+        moved.translation);
+}
+
+template <class Visitor>
+void describe(Visitor& visit, Timing& timing) {
+  visit(Field{.key = "dropped_frame",
+              .sentence = "From this picture on, the projector shows the pattern after the due one.",
+              .low = 0,
+              .high = 1e9},
+        timing.dropped_frame);
+  visit(Field{.key = "repeated_frame",
+              .sentence = "From this picture on, the projector shows the pattern before the due one.",
+              .low = 0,
+              .high = 1e9},
+        timing.repeated_frame);
+  visit(Field{.key = "frames_per_pattern",
+              .unit = "frames",
+              .sentence = "For how long a pattern is shown. One picture is taken of each.",
+              .low = 1,
+              .high = 1000},
+        timing.frames_per_pattern);
+  visit(Field{.key = "exposure_frames",
+              .unit = "frames",
+              .sentence = "For how long each picture is exposed. Pictures are as bright for any.",
+              .low = 0,
+              .high = 1000,
+              .low_excluded = true},
+        timing.exposure_frames);
+  visit(Field{.key = "exposure_delay_frames",
+              .unit = "frames",
+              .sentence = "How late after its pattern a picture's exposure begins.",
+              .low = -1000,
+              .high = 1000},
+        timing.exposure_delay_frames);
+  visit(Field{.key = "rolling_shutter_frames",
+              .unit = "frames",
+              .sentence = "How much later the image's last row is exposed than its first.",
+              .low = 0,
+              .high = 1000},
+        timing.rolling_shutter_frames);
+  visit(Field{.key = "colour_wheel",
+              .sentence = "With `colour`: red, green and blue are shown one after the other, a third of a "
+                          "frame each."},
+        timing.colour_wheel);
+  visit(Field{.key = "bit_planes",
+              .sentence = "The 8 bits of a value are shown one after the other within a frame, most "
+                          "significant first, each for its share of the time."},
+        timing.bit_planes);
+  visit(Field{.key = "moved", .sentence = "A device that stands elsewhere from some picture on."},
+        timing.moved);
+}
+
+template <class Visitor>
+void describe(Visitor& visit, InterReflection& reflection) {
+  visit(Field{.key = "bounces",
+              .sentence = "How many surfaces light visits before the one that the camera sees.",
+              .low = 0,
+              .high = most_bounces},
+        reflection.bounces);
+  visit(Field{.key = "paths",
+              .sentence = "How many ways back are followed from each camera sample; noise falls as "
+                          "1/√paths.",
+              .low = 1,
+              .high = most_paths},
+        reflection.paths);
 }
 
 template <class Visitor>
@@ -595,6 +769,13 @@ void describe(Visitor& visit, SceneSpec& scene) {
   visit(
       Field{.key = "effects", .sentence = "One switch for each effect; what it needs stands with its noun."},
       scene.effects);
+  visit(Field{.key = "inter_reflection", .sentence = "Light from surface to surface."},
+        scene.inter_reflection);
+  visit(Field{.key = "timing", .sentence = "When patterns are shown and when pictures are taken."},
+        scene.timing);
+  visit(
+      Field{.key = "colour", .sentence = "How a camera sees a projector's primaries; absent: each its own."},
+      scene.colours);
   visit(Field{.key = "mesh", .sentence = "A surface; at least one."}, scene.meshes);
   visit(Field{.key = "projector", .sentence = "A device that emits."}, scene.projectors);
   visit(Field{.key = "camera", .sentence = "A device that measures."}, scene.cameras);

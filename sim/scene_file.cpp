@@ -116,8 +116,10 @@ class Reader {
   static bool read(const toml::node& node, const Field& field, Matrix3x4& value) {
     return read_list(node, field, value.data(), value.size());
   }
-  static bool read(const toml::node& node, const Field& field, std::vector<double>& value) {
-    value.assign(node.is_array() ? node.as_array()->size() : 0, 0.0);
+  template <class T>
+    requires std::is_same_v<T, double> || std::is_same_v<T, std::string>
+  static bool read(const toml::node& node, const Field& field, std::vector<T>& value) {
+    value.assign(node.is_array() ? node.as_array()->size() : 0, T{});
     return read_list(node, field, value.data(), value.size());
   }
   template <class T>

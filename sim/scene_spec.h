@@ -78,14 +78,25 @@ struct CameraSpec {
   Vignetting vignetting{};
   int samples_per_pixel = Camera{}.samples_per_pixel;
   Optics optics{};
+  ColourFilter colour_filter = Camera{}.colour_filter;
+  double veiling_glare = Camera{}.veiling_glare;
   bool operator==(const CameraSpec&) const = default;
 };
 
 struct PatternsSpec {
-  PatternKind kind = PatternKind::gray;
-  std::string file{};
+  PatternParameters parameters{};
+  std::string file{};                ///< of a slide
+  std::vector<std::string> files{};  ///< of pictures
   Encoding encoding = Encoding::srgb;
+  glm::dvec3 colour{1, 1, 1};
   bool operator==(const PatternsSpec&) const = default;
+};
+
+/// A projector and a camera, by name, and nine numbers row by row: camera channel × projector primary.
+struct ColourSpec {
+  std::string projector{}, camera{};
+  std::vector<double> mixing{};
+  bool operator==(const ColourSpec&) const = default;
 };
 
 struct SceneSpec {
@@ -93,6 +104,9 @@ struct SceneSpec {
   double ambient_lx = 0;
   PatternsSpec patterns{};
   Effects effects{};
+  InterReflection inter_reflection{};
+  Timing timing{};
+  std::vector<ColourSpec> colours{};
   std::vector<MeshSpec> meshes{};
   std::vector<ProjectorSpec> projectors{};
   std::vector<CameraSpec> cameras{};

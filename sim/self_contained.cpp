@@ -55,6 +55,7 @@ SceneSpec write_self_contained(const SceneSpec& spec, const Scene& scene, const 
           put(target, "meshes", fmt::format("mesh{}.ply", i + 1), ply_bytes(scene.objects.at(i).mesh));
     copy_picture(mesh.albedo_map, fmt::format("map{}", i + 1), folder, target);
     copy_picture(mesh.effects.normal_map, fmt::format("normals{}", i + 1), folder, target);
+    copy_picture(mesh.effects.displacement_map, fmt::format("heights{}", i + 1), folder, target);
   }
   for (std::size_t i = 0; i < copy.projectors.size(); ++i) {
     copy_cameramodel(copy.projectors[i].device, "projector", i, folder, target);
@@ -66,6 +67,8 @@ SceneSpec write_self_contained(const SceneSpec& spec, const Scene& scene, const 
     copy_picture(copy.cameras[i].vignetting.map, fmt::format("camera{}", i + 1), folder, target);
   }
   copy_picture(copy.patterns.file, "slide", folder, target);
+  for (std::size_t i = 0; i < copy.patterns.files.size(); ++i)
+    copy_picture(copy.patterns.files[i], fmt::format("picture{}", i + 1), folder, target);
   write_file(target / "scene.toml", scene_toml(copy));
   return copy;
 }

@@ -1,16 +1,21 @@
 // laterna-bench: what the hot stages cost, beside what the machine can do, measured in one run.
+#include "apps/bench/decode_ratio.h"
 #include "apps/bench/picture_ratio.h"
 #include "apps/bench/replay_ratio.h"
+#include "apps/bench/scaling.h"
 #include "apps/bench/stage_ratio.h"
 #include "sim/error.h"
 #include "sim/instruction_sets.h"
 #include "sim/parallel.h"
+#include "sim/safe_write.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <filesystem>
 #include <string>
 
 using namespace laterna;
@@ -20,6 +25,7 @@ namespace {
 struct Options {
   bool json = false;
   int repeats = 9, threads = 2, triangles = 100000;
+  std::string scaling{};
   std::string isa;
 };
 
@@ -38,6 +44,7 @@ nlohmann::ordered_json measure(const Options& options) {
   const ReplayTimes replay = time_replay(scene, options.repeats);
   const StackTimes stack = time_stack(scene, std::max(1, options.repeats / 3));
   const PictureTimes pictures = time_pictures(std::max(1, options.repeats / 3));
+  const DecodeTimes decode = time_decode(options.repeats);
   return {{"visibility_over_embree", visibility.ratio},
           {"replay_bilinear_over_fill", replay.bilinear_over_fill},
           {"replay_binary_over_fill", replay.binary_over_fill},
@@ -50,10 +57,23 @@ nlohmann::ordered_json measure(const Options& options) {
           {"write_png44_over_copy", pictures.png_over_copy},
           {"write_tif44_over_copy", pictures.tif_over_copy},
           {"write_tif_pages44_over_copy", pictures.pages_over_copy},
+          {"decode_gray_over_read", decode.gray_over_read},
+          {"opencv_over_decode_gray", decode.opencv_over_gray},
+          {"atan2_over_decode_phase", decode.atan2_over_phase},
           {"threads", thread_count()},
           {"isa", instruction_set()},
           {"fill_seconds", replay.fill},
           {"visibility_seconds", visibility.visibility}};
+}
+
+// Leaves FILE.csv and a plot beside it.
+void write_scaling(const Options& options) {
+  set_thread_count(options.threads);
+  const auto points = time_scaling(bench_scene(options.triangles), std::max(1, options.repeats / 3));
+  std::filesystem::path path = options.scaling;
+  write_file(path, scaling_csv(points));
+  write_file(path.replace_extension(".svg"), scaling_svg(points));
+  fmt::print("{}", scaling_csv(points));
 }
 
 }  // namespace
@@ -70,9 +90,16 @@ int main(int argc, char** argv) {
   app.add_option(
       "--isa", options.isa,
       fmt::format("use no more than this instruction set: {}", fmt::join(instruction_set_names(), ", ")));
+  app.add_option("--scaling", options.scaling,
+                 "instead, time captures by patterns, samples, bounces and paths: a CSV file, and a plot "
+                 "(.svg) beside it");
   CLI11_PARSE(app, argc, argv);
   nlohmann::ordered_json result;
   try {
+    if (!options.scaling.empty()) {
+      write_scaling(options);
+      return 0;
+    }
     result = measure(options);
   } catch (const InputError& error) {
     fmt::print(stderr, "laterna-bench: {}\n", error.what());

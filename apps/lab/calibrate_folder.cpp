@@ -1,6 +1,7 @@
 #include "apps/lab/calibrate_folder.h"
 
 #include "apps/lab/trial.h"
+#include "render/effects/displacement.h"
 #include "render/ray_scene.h"
 #include "sim/error.h"
 
@@ -37,15 +38,17 @@ std::string lens_model(const Scene& scene, const std::string& projector) {
 struct Collected {
   glm::ivec2 size{0, 0};
   Correspondences correspondences;
+  std::vector<std::string> flags;
 };
 
 }  // namespace
 
 std::vector<FolderEstimate> calibrate_folder(const std::filesystem::path& folder,
-                                             const CaptureManifest& manifest, const Scene& scene,
+                                             const CaptureManifest& manifest, const Scene& given,
                                              const SolveOptions& solve_options,
-                                             const GrayDecodeOptions& decode_options,
-                                             const Progress& progress) {
+                                             const DecodeOptions& decode_options, const Progress& progress) {
+  std::optional<Scene> storage;
+  const Scene& scene = displaced(given, storage);
   const RayScene rays(scene);
   std::map<int, PixelArray<glm::dvec3>> points;
   std::map<std::string, Collected> projectors;
@@ -53,19 +56,22 @@ std::vector<FolderEstimate> calibrate_folder(const std::filesystem::path& folder
     if (progress)
       progress(fmt::format("decoding {} pictures of \"{}\" by \"{}\"", sequence.pictures.size(),
                            sequence.projector, sequence.camera));
-    const DecodedMap map = decode_sequence(folder, sequence, decode_options).map;
+    const DecodedSequence decoded = decode_sequence(folder, sequence, decode_options);
+    const DecodedMap& map = decoded.map;
     const int camera = camera_index(scene, sequence, map);
     if (!points.contains(camera)) {
       points.emplace(camera, points_world(trace_surface(rays, scene, scene.cameras[camera]), scene));
     }
     Collected& collected = projectors[sequence.projector];
     collected.size = sequence.projector_size;
+    for (const std::string& flag : decoded.report.flags)
+      collected.flags.push_back(fmt::format("seen by \"{}\": {}", sequence.camera, flag));
     append_correspondences(map, points.at(camera), camera, TrialOptions{}.block_px,
                            collected.correspondences);
   }
   std::vector<FolderEstimate> estimates;
   for (const auto& [name, collected] : projectors) {
-    FolderEstimate estimate{name, collected.correspondences.world_points.size(), {}};
+    FolderEstimate estimate{name, collected.correspondences.world_points.size(), {}, collected.flags};
     if (progress)
       progress(fmt::format("solving for \"{}\" from {} correspondences", name, estimate.correspondences));
     SolveOptions options = solve_options;

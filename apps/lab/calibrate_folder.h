@@ -17,6 +17,7 @@ struct FolderEstimate {
   std::string projector;
   std::size_t correspondences = 0;
   SolveResult solve;
+  std::vector<std::string> flags;  ///< what looks wrong in its pictures, sequence by sequence
 };
 
 /// Decodes the sequences of a manifest, takes the world point of each camera pixel from the scene's meshes
@@ -26,7 +27,7 @@ struct FolderEstimate {
 std::vector<FolderEstimate> calibrate_folder(const std::filesystem::path& folder,
                                              const CaptureManifest& manifest, const Scene& scene,
                                              const SolveOptions& solve_options,
-                                             const GrayDecodeOptions& decode_options,
+                                             const DecodeOptions& decode_options,
                                              const Progress& progress = {});
 
 }  // namespace laterna

@@ -1,8 +1,9 @@
 #include "apps/lab/capture_writer.h"
 
+#include "apps/lab/capture_warnings.h"
 #include "apps/lab/matrices.h"
 #include "apps/lab/truth_picture.h"
-#include "render/effects/scaler.h"
+#include "render/effects/apply_effects.h"
 #include "render/trace_rows.h"
 #include "sim/capture_folder.h"
 #include "sim/error.h"
@@ -62,7 +63,9 @@ CaptureSequence describe(const Scene& scene, int camera_index, int projector_ind
   s.camera = camera.device.name;
   s.projector = projector.name;
   s.camera_size = camera.device.intrinsics.size;
-  s.projector_size = input_size(scene.effects, scene.projectors[projector_index]);
+  const PatternSequence patterns = pattern_sequence(scene, scene.projectors[projector_index]);
+  s.projector_size = patterns.projector_size;
+  s.patterns = patterns.parameters;
   s.bit_depth = camera.sensor.bit_depth;
   s.saturation_cd_per_m2 = saturation_cd_per_m2;
   if (camera.sensor.kind == SensorKind::emva1288)
@@ -81,7 +84,7 @@ std::size_t bytes_of(const CapturedStack& stack) {
 }
 
 // One view to disk.
-CaptureSequence write_view(const Scene& scene, const Rig& rig, int camera, int projector,
+CaptureSequence write_view(const Scene& scene, const SceneRays& rig, int camera, int projector,
                            const std::filesystem::path& root, const CaptureOptions& options,
                            StageTimes& times, const Progress& progress) {
   const double saturation = saturation_cd_per_m2(scene, rig, camera, projector, times);
@@ -113,13 +116,17 @@ CaptureSequence write_view(const Scene& scene, const Rig& rig, int camera, int p
 
 }  // namespace
 
-void write_capture(const SceneSpec& spec, const Scene& scene, const std::filesystem::path& folder,
-                   const std::filesystem::path& target, const CaptureOptions& options, StageTimes& times,
-                   const Progress& progress) {
+std::vector<std::string> write_capture(const SceneSpec& spec, const Scene& scene,
+                                       const std::filesystem::path& folder,
+                                       const std::filesystem::path& target, const CaptureOptions& options,
+                                       StageTimes& times, const Progress& progress) {
   check_format(options.format, scene);
   PendingFolder pending(target);
   const std::filesystem::path root = pending.path();
-  const Rig rig = make_rig(scene, times);
+  const SceneRays rig = make_rig(scene, times);
+  const std::vector<std::string> warnings = capture_warnings(scene, rig);
+  for (const std::string& warning : warnings)
+    if (progress) progress(warning);
   write_self_contained(spec, scene, folder, root);
   write_file(root / "matrices.json", matrices_json(scene).dump(2) + "\n");
   CaptureManifest manifest{"scene.toml", options.seed, "matrices.json", {}};
@@ -129,6 +136,7 @@ void write_capture(const SceneSpec& spec, const Scene& scene, const std::filesys
       manifest.sequences.push_back(write_view(scene, rig, camera, projector, root, options, times, progress));
   write_file(root / "manifest.json", manifest_json(manifest));
   pending.commit();
+  return warnings;
 }
 
 }  // namespace laterna

@@ -17,8 +17,10 @@ struct CaptureOptions {
 /// Captures every view of a scene into the new folder `target` (sim/capture_folder.h describes it). `folder`
 /// is where the scene file stands. Throws InputError where `target` exists or cannot be written; then nothing
 /// is left behind.
-void write_capture(const SceneSpec& spec, const Scene& scene, const std::filesystem::path& folder,
-                   const std::filesystem::path& target, const CaptureOptions& options, StageTimes& times,
-                   const Progress& progress = {});
+/// Returns what a person should be warned of (capture_warnings.h); `progress` gets it before the pictures.
+std::vector<std::string> write_capture(const SceneSpec& spec, const Scene& scene,
+                                       const std::filesystem::path& folder,
+                                       const std::filesystem::path& target, const CaptureOptions& options,
+                                       StageTimes& times, const Progress& progress = {});
 
 }  // namespace laterna

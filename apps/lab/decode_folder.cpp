@@ -10,26 +10,26 @@
 namespace laterna {
 
 CaptureManifest manifest_or_pictures(const std::filesystem::path& folder,
-                                     std::optional<glm::ivec2> projector_size) {
+                                     const std::optional<PatternSequence>& patterns) {
   if (std::filesystem::exists(folder / "manifest.json")) return read_manifest(folder);
-  if (!projector_size) {
+  if (!patterns) {
     throw InputError(fmt::format(
         "{}: no manifest.json, expected a capture folder, or --projector-size for a folder of pictures",
         folder.string()));
   }
   CaptureManifest manifest;
-  manifest.sequences.push_back(plain_sequence(folder, *projector_size));
+  manifest.sequences.push_back(plain_sequence(folder, *patterns));
   return manifest;
 }
 
 DecodedSequence decode_sequence(const std::filesystem::path& folder, const CaptureSequence& sequence,
-                                const GrayDecodeOptions& options) {
-  if (sequence.patterns != "gray") {
-    throw InputError(
-        fmt::format("{}: found patterns \"{}\", expected \"gray\"", folder.string(), sequence.patterns));
-  }
+                                const DecodeOptions& options) {
   try {
-    return {sequence, decode_gray(read_pictures(folder, sequence), sequence.projector_size, options)};
+    const PatternSequence patterns{sequence.patterns, sequence.projector_size};
+    const CapturedStack pictures = read_pictures(folder, sequence);
+    DecodedSequence decoded{sequence, decode(pictures, patterns, options), {}};
+    decoded.report = report_on(pictures, patterns, decoded.map);
+    return decoded;
   } catch (const InputError& error) {
     const std::string message = error.what();
     if (message.find(folder.string()) != std::string::npos) throw;

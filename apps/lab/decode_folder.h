@@ -1,7 +1,8 @@
 // A capture folder's pictures to decoded maps: simulated and real ones alike.
 #pragma once
 
-#include "calib/decode_gray.h"
+#include "calib/decode.h"
+#include "calib/decode_report.h"
 #include "sim/capture_folder.h"
 
 #include <filesystem>
@@ -14,17 +15,18 @@ namespace laterna {
 struct DecodedSequence {
   CaptureSequence sequence;
   DecodedMap map;
+  DecodeReport report;
 };
 
-/// The folder's manifest; where there is none and `projector_size` is given, all its pictures as one
-/// sequence. Throws InputError where there is neither.
+/// The folder's manifest; where there is none and `patterns` is given, all its pictures as one
+/// sequence of that family. Throws InputError where there is neither.
 CaptureManifest manifest_or_pictures(const std::filesystem::path& folder,
-                                     std::optional<glm::ivec2> projector_size);
+                                     const std::optional<PatternSequence>& patterns);
 
 /// Reads and decodes one sequence. Throws InputError where pictures are missing or unreadable, or their
 /// number is not that of the patterns.
 DecodedSequence decode_sequence(const std::filesystem::path& folder, const CaptureSequence& sequence,
-                                const GrayDecodeOptions& options);
+                                const DecodeOptions& options);
 
 /// Layers projector.u, projector.v (px), sigma.px, confidence, valid, in single precision.
 void write_decoded(const std::filesystem::path& path, const DecodedMap& map);

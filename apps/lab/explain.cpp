@@ -1,16 +1,19 @@
 #include "apps/lab/explain.h"
 
-#include "calib/decode_gray.h"
-#include "render/effects/scaler.h"
+#include "calib/decode.h"
+#include "render/effects/apply_effects.h"
 #include "sim/effect_checks.h"
 #include "sim/error.h"
+#include "sim/scene_build.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
+#include <string_view>
 
 namespace laterna {
 
@@ -22,29 +25,48 @@ struct Captured {
   std::vector<CapturedStack> stacks;  // one per view
   std::vector<DecodedMap> maps;
   std::vector<double> saturations;
+  std::vector<int> projectors;
   double entries_per_pixel = 0, seconds = 0;
 };
 
-// At the given exposures, or, where there are none, at those that suit the scene.
-Captured capture_all(const Scene& scene, std::uint64_t seed, const std::vector<double>& saturations) {
+// Traces and captures every view once, at the given exposures or, where there are none, at those that suit
+// the scene.
+Captured capture_once(const Scene& scene, std::uint64_t seed, const std::vector<double>& saturations) {
   StageTimes times;
   Captured captured;
   Traced traced = trace(scene, times);
-  double lit = 0, pixels = 0;
+  std::atomic<std::uint64_t> entries{0};
+  double pixels = 0;
   for (std::size_t i = 0; i < traced.views.size(); ++i) {
     View& view = traced.views[i];
     if (!saturations.empty()) view.saturation_cd_per_m2 = saturations[i];
     captured.saturations.push_back(view.saturation_cd_per_m2);
-    captured.stacks.push_back(capture_view(scene, traced, view, seed, times));
-    if (!scene.effects.slide) {
-      captured.maps.push_back(decode_gray(captured.stacks.back(),
-                                          input_size(scene.effects, scene.projectors[view.projector]), {}));
-    }
-    for (std::size_t p = 0; p < view.light.why.values.size(); ++p) lit += view.light.lit(p);
-    pixels += double(view.light.why.values.size());
+    captured.projectors.push_back(view.projector);
+    const ImageRows rows = view_rows(scene, traced, view, seed);
+    captured.stacks.push_back(capture_rows(scene, view.camera, view.projector, rows,
+                                           view.saturation_cd_per_m2, seed, times, &entries));
+    pixels += double(rows.size.x) * rows.size.y;
   }
-  captured.entries_per_pixel = pixels > 0 ? lit / pixels : 0;
+  captured.entries_per_pixel = pixels > 0 ? double(entries) / pixels : 0;
   captured.seconds = times.total();
+  return captured;
+}
+
+// The same with the seconds of the median of several runs, and decoded.
+Captured capture_all(const Scene& scene, std::uint64_t seed, const std::vector<double>& saturations) {
+  constexpr int runs = 3;
+  Captured captured;
+  std::vector<double> seconds;
+  for (int run = 0; run < runs; ++run) {
+    captured = capture_once(scene, seed, saturations);
+    seconds.push_back(captured.seconds);
+  }
+  std::nth_element(seconds.begin(), seconds.begin() + runs / 2, seconds.end());
+  captured.seconds = seconds[runs / 2];
+  for (std::size_t i = 0; i < captured.stacks.size() && !comes_from_files(scene.patterns.kind); ++i) {
+    const Projector& projector = scene.projectors[captured.projectors[i]];
+    captured.maps.push_back(decode(captured.stacks[i], pattern_sequence(scene, projector)));
+  }
   return captured;
 }
 
@@ -97,9 +119,21 @@ bool has_parameters(const SceneSpec& given, const EffectSwitch& effect) {
   }
 }
 
+// A lens that is off is gone from the scene: it comes from the specification.
+Scene with_toggled(const SceneSpec& spec, const Scene& scene, const std::filesystem::path& folder,
+                   const EffectSwitch& effect) {
+  Scene toggled = scene;
+  toggled.effects.*effect.on = !(scene.effects.*effect.on);
+  if (std::string_view(effect.stage) != "warp") return toggled;
+  SceneSpec changed = spec;
+  changed.effects = toggled.effects;
+  return build_scene(changed, folder);
+}
+
 }  // namespace
 
-std::vector<EffectCost> explain_effects(const SceneSpec& spec, const Scene& scene, std::uint64_t seed,
+std::vector<EffectCost> explain_effects(const SceneSpec& spec, const Scene& scene,
+                                        const std::filesystem::path& folder, std::uint64_t seed,
                                         const Progress& progress) {
   const Captured as_is = capture_all(scene, seed, {});
   std::vector<EffectCost> costs;
@@ -107,8 +141,7 @@ std::vector<EffectCost> explain_effects(const SceneSpec& spec, const Scene& scen
     EffectCost cost{.name = effect.name, .stage = effect.stage, .on = scene.effects.*effect.on};
     if (cost.on || has_parameters(spec, effect)) {
       if (progress) progress(fmt::format("capturing with {} switched {}", cost.name, cost.on ? "off" : "on"));
-      Scene toggled = scene;
-      toggled.effects.*effect.on = !cost.on;
+      const Scene toggled = with_toggled(spec, scene, folder, effect);
       compare(as_is, capture_all(toggled, seed, as_is.saturations), cost);
     } else {
       cost.entries_per_pixel = as_is.entries_per_pixel;

@@ -15,15 +15,17 @@ namespace laterna {
 struct EffectCost {
   std::string name, stage;
   bool on = false;               ///< in the scene
-  double entries_per_pixel = 0;  ///< lit camera pixels over camera pixels, with the effect on
-  double seconds = 0;  ///< of tracing and capture, more with it than without; 0 where it is within noise
+  double entries_per_pixel = 0;  ///< of the rows, over all camera pixels, with the effect on
+  double seconds = 0;  ///< of tracing and capture, more with it than without, each the median of three runs;
+                       ///< 0 where it is within noise
   double max_dn = 0, rms_dn = 0;        ///< over all pixels of all pictures
   double max_uv_px = 0, rms_uv_px = 0;  ///< |Δ(u, v)| of the decoded map, where both decode
 };
 
 /// One entry per switch of all_effects, in its order. A switch that is off and whose parameters the scene
-/// does not give changes nothing. `scene` is built from `spec`.
-std::vector<EffectCost> explain_effects(const SceneSpec& spec, const Scene& scene, std::uint64_t seed,
+/// does not give changes nothing. `scene` is built from `spec` in `folder`.
+std::vector<EffectCost> explain_effects(const SceneSpec& spec, const Scene& scene,
+                                        const std::filesystem::path& folder, std::uint64_t seed,
                                         const Progress& progress = {});
 
 /// A table for people.

@@ -145,8 +145,9 @@ void draw_frustum(Canvas& canvas, glm::ivec2 corner, const WorldProjection& eye,
   if (std::isfinite(at.x)) draw_text(canvas, glm::ivec2(at) + glm::ivec2(8, -16), device.name, 12, colour);
 }
 
-void draw_outside(Canvas& canvas, const Scene& scene, const Traced& traced, glm::ivec2 corner,
+void draw_outside(Canvas& canvas, const Scene& given, const Traced& traced, glm::ivec2 corner,
                   glm::ivec2 size) {
+  const Scene& scene = traced.as_seen(given);
   const Box seen = seen_box(scene, traced);
   const Camera eye = observer(scene, seen, size);
   const SurfaceMap surface = trace_surface(traced.rays, scene, eye);

@@ -35,7 +35,7 @@ int find_named(const Nouns& nouns, const std::string& name, const char* option, 
 // What the words name, ready for rays.
 struct Selected {
   const Scene& scene;
-  const Rig rig;
+  const SceneRays rig;
   int camera, projector;
 
   Selected(const Scene& s, const RenderOptions& options, StageTimes& times)
@@ -48,7 +48,10 @@ struct Selected {
   ImageRows rows(const RenderOptions& options) const {
     PixelSamples samples = samples_of(scene, camera, options.seed);
     if (options.samples_per_pixel > 0) samples.count = options.samples_per_pixel;
-    if (options.kind == RenderKind::dual) samples.count = std::max(samples.count, dual_samples);
+    if (options.kind == RenderKind::dual) {
+      samples.count = std::max(samples.count, dual_samples);
+      if (samples.side_px == 0) samples.side_px = 1;
+    }
     return rig_rows(scene, rig, camera, projector, samples);
   }
 };
@@ -64,7 +67,8 @@ Image<float> picture_or_white(const std::filesystem::path& file, const glm::ivec
 
 PatternStack shown_by_projector(const Selected& selected, const std::filesystem::path& file) {
   const glm::ivec2 size = input_size(selected.scene.effects, selected.source());
-  PatternStack patterns = make_slide_stack({picture_or_white(file, size, "projector"), true}, size);
+  const Slide slide{picture_or_white(file, size, "projector"), true};
+  PatternStack patterns = make_slide_stack({&slide, 1}, size);
   apply_effects(patterns, selected.scene, selected.source());
   return patterns;
 }
@@ -110,7 +114,7 @@ Image<float> dual_cd_per_m2(const Selected& selected, const RenderOptions& optio
 }
 
 BakedTexture bake(const Selected& selected, const RenderOptions& options) {
-  const Scene& scene = selected.scene;
+  const Scene& scene = selected.rig.as_seen(selected.scene);
   int mesh = 0;
   while (options.mesh.empty() && mesh + 1 < int(scene.objects.size()) &&
          scene.objects[mesh].mesh.texture_coordinates.empty())

@@ -3,7 +3,6 @@
 #include "apps/lab/decode_folder.h"
 #include "apps/lab/summary_picture.h"
 #include "apps/lab/trial_report.h"
-#include "sim/pattern.h"
 #include "sim/safe_write.h"
 
 #include <fmt/format.h>
@@ -23,8 +22,7 @@ struct Kept {
   DecodedMap decoded;
 };
 
-Image<float> white_frame(const CapturedStack* pictures, const View& view, const GraySequence& sequence,
-                         int full_scale) {
+Image<float> white_frame(const CapturedStack* pictures, const View& view, int full_scale) {
   Image<float> white(view.light.width, view.light.height);
   if (!pictures) {
     for (std::size_t i = 0; i < white.values.size(); ++i) white.values[i] = view.light.lit(i) ? 1.0f : 0.0f;
@@ -32,7 +30,7 @@ Image<float> white_frame(const CapturedStack* pictures, const View& view, const 
   }
   std::visit(
       [&](const auto& stack) {
-        const auto picture = stack.picture(picture_count(sequence) - 2);
+        const auto picture = stack.picture(stack.count - 2);
         for (std::size_t i = 0; i < white.values.size(); ++i)
           white.values[i] = float(picture[i]) / float(full_scale);
       },
@@ -108,9 +106,8 @@ RoundtripOutput roundtrip(const Scene& scene, const std::string& scene_name,
   std::vector<Kept> kept;
   const auto keep = [&](const View& view, const CapturedStack* pictures, const DecodedMap& decoded) {
     if (!folder) return;
-    const GraySequence sequence{scene.projectors[view.projector].device.intrinsics.size};
     const int full_scale = (1 << scene.cameras[view.camera].sensor.bit_depth) - 1;
-    kept.push_back({&view, white_frame(pictures, view, sequence, full_scale), decoded});
+    kept.push_back({&view, white_frame(pictures, view, full_scale), decoded});
   };
   out.outcomes = run_trial(scene, traced, options, out.times, keep, progress);
   if (folder) {

@@ -10,8 +10,10 @@
 #include "sim/image.h"
 #include "sim/scene.h"
 
+#include <atomic>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -44,16 +46,20 @@ struct View {
 };
 
 /// A scene ready for rays, and the rays of its cameras.
-struct Rig {
+struct SceneRays {
   RayScene rays;
   std::vector<CameraRays> directions;  ///< one per camera
+  std::unique_ptr<const Scene>
+      displaced;  ///< the scene that the rays meet where displacement moves its meshes
+
+  const Scene& as_seen(const Scene& given) const { return displaced ? *displaced : given; }
 };
 
 /// Throws InputError where the scene has no projector or no camera.
-Rig make_rig(const Scene& scene, StageTimes& times);
+SceneRays make_rig(const Scene& scene, StageTimes& times);
 
 /// What does not depend on the patterns: rays are traced once.
-struct Traced : Rig {
+struct Traced : SceneRays {
   std::vector<SurfaceMap> surfaces;  ///< one per camera
   std::vector<PixelArray<glm::dvec3>>
       points_world;         ///< one per camera: what each pixel sees, m; NaN where nothing
@@ -64,12 +70,35 @@ struct Traced : Rig {
 /// sensor's own, or automatic. Throws InputError where the scene has no projector or no camera.
 Traced trace(const Scene& scene, StageTimes& times, const Progress& progress = {});
 
+/// What a row of tiles of a camera's image sees, and one projector's light on it, at pixel centres.
+struct Strip {
+  SurfaceMap surface;
+  LightMap light;
+};
+
+/// Traces one view strip by strip, so that no map of the image is held. What it is made from must outlive it.
+class StripTracer {
+ public:
+  StripTracer(const Scene& scene, const SceneRays& rig, int camera, int projector);
+  int count() const;  ///< of rows of tiles
+  Strip trace(int tile_row) const;
+
+ private:
+  const Scene& scene_;
+  const SceneRays& rig_;
+  int camera_, projector_;
+  CameraView eye_;
+  ProjectorView source_;
+};
+
 /// The rows of one view, with every effect of the scene, traced at each call: no map of the image is held.
-ImageRows rig_rows(const Scene& scene, const Rig& rig, int camera, int projector,
+ImageRows rig_rows(const Scene& scene, const SceneRays& rig, int camera, int projector,
                    const PixelSamples& samples);
 
-/// The luminance that fills the scale: the sensor's own, or automatic, from direct light at pixel centres.
-double saturation_cd_per_m2(const Scene& scene, const Rig& rig, int camera, int projector, StageTimes& times);
+/// The luminance that fills the scale: the sensor's own, or automatic, from the light at pixel centres (at
+/// every sixteenth tile of them with inter-reflection).
+double saturation_cd_per_m2(const Scene& scene, const SceneRays& rig, int camera, int projector,
+                            StageTimes& times);
 
 /// The rows of one view, with every effect of the scene: from the maps where a pixel's row is the direct
 /// light at its centre, else traced anew at each call. `scene` and `traced` must outlive the result. `seed`
@@ -80,9 +109,12 @@ ImageRows view_rows(const Scene& scene, const Traced& traced, const View& view, 
 CapturedStack capture_view(const Scene& scene, const Traced& traced, const View& view, std::uint64_t seed,
                            StageTimes& times);
 
-/// Pictures of rows at hand. `seed` draws the noise.
+/// Pictures of rows at hand, those of white light, with colour, camera glare and timing; where timing moves
+/// the rig, its moved rows are traced here. `seed` draws the noise; the entries that played are added to
+/// `entries`.
 CapturedStack capture_rows(const Scene& scene, int camera, int projector, const ImageRows& rows,
-                           double saturation_cd_per_m2, std::uint64_t seed, StageTimes& times);
+                           double saturation_cd_per_m2, std::uint64_t seed, StageTimes& times,
+                           std::atomic<std::uint64_t>* entries = nullptr);
 
 /// Share of something, in per cent, for people.
 struct Overlap {

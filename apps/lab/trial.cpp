@@ -1,6 +1,6 @@
 #include "apps/lab/trial.h"
 
-#include "render/effects/scaler.h"
+#include "render/effects/apply_effects.h"
 #include "sim/error.h"
 #include "sim/parallel.h"
 
@@ -48,6 +48,13 @@ void judge(const Scene& scene, const Traced& traced, const Correspondences& corr
     for (const glm::dvec2& e : error_vectors(truth, outcome.solve.estimate, points)) {
       outcome.surface_error_px.push_back(float(glm::length(e)));
     }
+  });
+}
+
+void append_flags(const CapturedStack& pictures, const PatternSequence& sequence, const DecodedMap& map,
+                  ProjectorOutcome& outcome) {
+  outcome.times.measure("decode", [&] {
+    for (const std::string& flag : report_on(pictures, sequence, map).flags) outcome.flags.push_back(flag);
   });
 }
 
@@ -104,20 +111,22 @@ DecodedMap true_map(const LightMap& light) {
     map.sigma_px.values[i] = lit ? 1e-3f : nan_f;
     map.valid.values[i] = lit;
     map.confidence.values[i] = lit ? 1.0f : 0.0f;
+    map.why.values[i] = lit ? Reject::none : Reject::dim;
   }
   return map;
 }
 
 std::vector<ProjectorOutcome> run_trial(const Scene& scene, const Traced& traced, const TrialOptions& options,
                                         StageTimes& times, const ViewSink& sink, const Progress& progress) {
-  if (scene.effects.slide && !options.true_uv)
-    throw InputError("[effects]: slide is on, which tells no pixel its place, expected coded patterns");
+  if (comes_from_files(scene.patterns.kind) && !options.true_uv)
+    throw InputError("[patterns]: pictures from files tell no pixel its place, expected coded patterns");
   std::vector<ProjectorOutcome> outcomes;
   for (int p = 0; p < int(scene.projectors.size()); ++p) {
     ProjectorOutcome outcome;
     outcome.projector = p;
     outcome.name = scene.projectors[p].device.name;
     Correspondences correspondences;
+    const PatternSequence sequence = pattern_sequence(scene, scene.projectors[p]);
     for (const View& view : traced.views) {
       if (view.projector != p) continue;
       if (progress)
@@ -126,10 +135,9 @@ std::vector<ProjectorOutcome> run_trial(const Scene& scene, const Traced& traced
       std::optional<CapturedStack> pictures;
       if (!options.true_uv) pictures = capture_view(scene, traced, view, options.seed, outcome.times);
       const DecodedMap decoded = outcome.times.measure("decode", [&] {
-        return pictures
-                   ? decode_gray(*pictures, input_size(scene.effects, scene.projectors[p]), options.decode)
-                   : true_map(view.light);
+        return pictures ? decode(*pictures, sequence, options.decode) : true_map(view.light);
       });
+      if (pictures) append_flags(*pictures, sequence, decoded, outcome);
       append_correspondences(decoded, traced.points_world[view.camera], view.camera, options.block_px,
                              correspondences);
       if (sink) sink(view, pictures ? &*pictures : nullptr, decoded);

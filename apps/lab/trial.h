@@ -3,7 +3,8 @@
 #pragma once
 
 #include "apps/lab/simulation.h"
-#include "calib/decode_gray.h"
+#include "calib/decode.h"
+#include "calib/decode_report.h"
 #include "calib/solve.h"
 #include "calib/verify.h"
 
@@ -14,7 +15,7 @@ namespace laterna {
 struct TrialOptions {
   std::uint64_t seed = 1;
   SolveOptions solve;  ///< lens_model is replaced by each projector's own
-  GrayDecodeOptions decode;
+  DecodeOptions decode;
   bool true_uv = false;  ///< takes the true (u, v) in double in place of capture and decoding
   int block_px = 32;     ///< side of the camera-image blocks whose errors may be correlated
 };
@@ -28,6 +29,7 @@ struct ProjectorOutcome {
   Verification verification;            ///< empty sets where refused
   std::vector<float> surface_error_px;  ///< per surface point, in the order of camera pixels of the first
                                         ///< camera, NaN where dark
+  std::vector<std::string> flags;       ///< what looks wrong in its pictures, view by view
   StageTimes times;                     ///< shared stages (build, surface) included
 };
 

@@ -144,6 +144,7 @@ Json trial_json(const Scene&, const std::vector<ProjectorOutcome>& outcomes, con
                {"status", status_word(o.solve.status)},
                {"reason", o.solve.reason},
                {"correspondences", o.correspondences},
+               {"flags", o.flags},
                {"surface_error_px", refused ? Json(nullptr) : error_json(o.verification.surface)},
                {"volume_error_px", refused ? Json(nullptr) : error_json(o.verification.volume)},
                {"extrapolation_error_px", refused ? Json(nullptr) : error_json(o.verification.extrapolation)},
@@ -191,6 +192,7 @@ std::string trial_text(const Scene& scene, const std::vector<ProjectorOutcome>& 
   std::string text;
   for (const ProjectorOutcome& o : outcomes) {
     text += fmt::format("projector \"{}\": {} correspondences\n", o.name, o.correspondences);
+    for (const std::string& flag : o.flags) text += fmt::format("  pictures: {}\n", flag);
     if (o.solve.status != Status::refused) {
       text += solve_text(o.solve, &scene.projectors[o.projector].device);
       text += verification_text(o.verification);

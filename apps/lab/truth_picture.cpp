@@ -1,6 +1,5 @@
 #include "apps/lab/truth_picture.h"
 
-#include "render/effects/apply_effects.h"
 #include "sim/image_file.h"
 #include "sim/parallel.h"
 
@@ -17,7 +16,7 @@ const std::vector<std::string>& layers() {
   return names;
 }
 
-void write_strip(const Scene& scene, const Rig& rig, const SurfaceMap& surface, const LightMap& light,
+void write_strip(const Scene& scene, const SceneRays& rig, const SurfaceMap& surface, const LightMap& light,
                  float* to) {
   const PixelArray<glm::dvec3> points = points_world(surface, scene),
                                normals = normals_world(surface, rig.rays);
@@ -32,21 +31,17 @@ void write_strip(const Scene& scene, const Rig& rig, const SurfaceMap& surface, 
 
 }  // namespace
 
-void write_truth(const std::filesystem::path& path, const Scene& scene, const Rig& rig, int camera,
+void write_truth(const std::filesystem::path& path, const Scene& given, const SceneRays& rig, int camera,
                  int projector) {
+  const Scene& scene = rig.as_seen(given);
   const CameraRays& directions = rig.directions[camera];
   const int width = directions.width(), height = directions.height();
-  const CameraView eye = make_camera_view(rig.rays, scene, scene.cameras[camera]);
-  const ProjectorView source = make_projector_view(rig.rays, scene, scene.projectors[projector]);
+  const StripTracer tracer(scene, rig, camera, projector);
   std::vector<float> data(std::size_t(width) * height * layers().size());
-  parallel_for((height + tile_edge - 1) / tile_edge, [&](std::size_t tile_row) {
-    const int y = int(tile_row) * tile_edge;
-    SurfaceMap surface = make_surface_map({0, y, width, std::min(tile_edge, height - y)});
-    LightMap light = make_light_map(surface.width, surface.height);
-    trace_surface_tiles(rig.rays, eye, directions, 0, surface);
-    trace_light_tiles(rig.rays, source, surface, 0, light);
-    apply_light_effects(light, surface, rig.rays, scene, scene.projectors[projector], scene.cameras[camera]);
-    write_strip(scene, rig, surface, light, data.data() + std::size_t(y) * width * layers().size());
+  parallel_for(std::size_t(tracer.count()), [&](std::size_t row) {
+    const Strip strip = tracer.trace(int(row));
+    write_strip(scene, rig, strip.surface, strip.light,
+                data.data() + row * tile_edge * std::size_t(width) * layers().size());
   });
   write_picture(path, {data.data(), width, height, int(layers().size()), PixelType::f32, layers()});
 }

@@ -49,19 +49,22 @@ void add_capture(CLI::App& app, Common& common) {
     const SceneSpec spec = with_names(read_scene_spec(words->scene));
     const Scene scene = load_scene(words->scene);
     words->options.seed = common.seed;
+    const std::filesystem::path folder = std::filesystem::path(words->scene).parent_path();
     if (words->explain) {
-      print_effects(
-          explain_effects(spec, scene, common.seed, [&](const std::string& line) { progress(common, line); }),
-          common.json);
+      print_effects(explain_effects(spec, scene, folder, common.seed,
+                                    [&](const std::string& line) { progress(common, line); }),
+                    common.json);
       return;
     }
     StageTimes times;
-    write_capture(spec, scene, std::filesystem::path(words->scene).parent_path(), words->out, words->options,
-                  times, [&](const std::string& line) { progress(common, line); });
+    const std::vector<std::string> warnings =
+        write_capture(spec, scene, folder, words->out, words->options, times,
+                      [&](const std::string& line) { progress(common, line); });
     if (common.json) {
       nlohmann::json seconds;
       for (const auto& stage : times.stages) seconds[stage.name] = stage.seconds;
-      fmt::print("{}\n", nlohmann::json{{"folder", words->out}, {"seconds", seconds}}.dump());
+      fmt::print("{}\n",
+                 nlohmann::json{{"folder", words->out}, {"seconds", seconds}, {"warnings", warnings}}.dump());
       return;
     }
     for (const auto& stage : times.stages) fmt::print("  {:<10} {:>8.3f} s\n", stage.name, stage.seconds);

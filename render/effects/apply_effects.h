@@ -5,6 +5,7 @@
 #include "render/ray_scene.h"
 #include "render/surface.h"
 #include "sim/pattern.h"
+#include "sim/pattern_sequence.h"
 #include "sim/scene.h"
 
 #include <span>
@@ -24,6 +25,9 @@ void apply_effects(SurfaceMap& surface, std::span<LightMap> lights, const RaySce
 void apply_surface_effects(SurfaceMap& surface, const Scene& scene);
 void apply_light_effects(LightMap& light, const SurfaceMap& surface, const RayScene& rays, const Scene& scene,
                          const Projector& projector, const Camera& camera);
+/// The same for light that goes on diffusely, to no one camera: without gloss.
+void apply_light_effects(LightMap& light, const SurfaceMap& surface, const RayScene& rays, const Scene& scene,
+                         const Projector& projector);
 void apply_camera_effects(SurfaceMap& surface, const RayScene& rays, const Scene& scene,
                           const Camera& camera);
 
@@ -31,8 +35,19 @@ void apply_camera_effects(SurfaceMap& surface, const RayScene& rays, const Scene
 /// glare. What is off leaves every bit as it was.
 void apply_effects(PatternStack& patterns, const Scene& scene, const Projector& projector);
 
-/// The scene's patterns as the projector's panel shows them: Gray code or slide, of input_size()
+/// The two parts of that: the signal's way to the panel (scaler, response), and the light behind it (black
+/// level, veiling glare).
+void apply_panel_effects(PatternStack& patterns, const Scene& scene, const Projector& projector);
+void apply_black_and_glare(PatternStack& patterns, const Scene& scene, const Projector& projector);
+
+/// The family that the scene names, for the size that the projector takes.
+PatternSequence pattern_sequence(const Scene& scene, const Projector& projector);
+
+/// The scene's patterns as the projector's panel shows them: a sequence, slide or pictures, of input_size()
 /// (render/effects/scaler.h), then apply_effects.
 PatternStack make_patterns(const Scene& scene, const Projector& projector);
+
+/// What goes into the projector, before those effects; a coloured slide as grey.
+PatternStack make_input_patterns(const Scene& scene, const Projector& projector);
 
 }  // namespace laterna

@@ -1,7 +1,7 @@
 #include "render/effects/projector_defocus.h"
 
-#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace laterna {
 
@@ -23,14 +23,9 @@ void apply_projector_defocus(LightMap& light, const PixelGeometry& geometry, con
   });
 }
 
-double median_footprint_px(const LightMap& light) {
-  std::vector<float> footprints;
-  for (std::size_t p = 0; p < light.footprint_px.values.size(); ++p)
-    if (light.lit(p)) footprints.push_back(light.footprint_px.values[p]);
-  if (footprints.empty()) return 0;
-  const auto middle = footprints.begin() + std::ptrdiff_t(footprints.size() / 2);
-  std::nth_element(footprints.begin(), middle, footprints.end());
-  return *middle;
+double stripe_contrast(double diameter_px, double stripe_px) {
+  const double x = std::numbers::pi * diameter_px / (2 * stripe_px);
+  return x > 0 ? 2 * std::cyl_bessel_j(1, x) / x : 1;
 }
 
 }  // namespace laterna

@@ -23,7 +23,8 @@ double blur_diameter_px(const Optics& optics, const Intrinsics& intrinsics, doub
 /// Fills light.footprint_px, 0 where unlit.
 void apply_projector_defocus(LightMap& light, const PixelGeometry& geometry, const Projector& projector);
 
-/// Over the lit pixels; 0 where there are none, or no footprints.
-double median_footprint_px(const LightMap& light);
+/// What is left of the contrast of stripes, `stripe_px` wide each: the disc's transfer at their period,
+/// 2·J1(x)/x with x = π·diameter_px/(2·stripe_px). Negative: dark and bright have changed places.
+double stripe_contrast(double diameter_px, double stripe_px);
 
 }  // namespace laterna

@@ -84,7 +84,7 @@ TEST(Show, ATimelineMixesFrames) {
   const ImageRows image{{60, 40},
                         [&](LightRows& rows) { direct_rows(lit.surface, lit.light(), {}, 9, rows); }};
   // Picture 0 is frame 2; picture 1 is frame 1 above row 20, below it one quarter of frame 0.
-  const Timeline timeline{2, [](int row) {
+  const Timeline timeline{2, [](int row, int) {
                             return row < 20 ? std::vector<PictureFrames>{{{2, 1}}, {{1, 1}}}
                                             : std::vector<PictureFrames>{{{2, 1}}, {{0, 0.25f}, {1, 0.75f}}};
                           }};

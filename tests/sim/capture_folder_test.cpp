@@ -47,15 +47,15 @@ TEST(CaptureFolder, PlainPicturesComeInTheOrderOfTheirNumbers) {
   const testing::ScratchFolder scratch;
   for (const char* name : {"g_10.png", "g_2.PNG", "g_1.png", "notes.txt", "g_010b.png"})
     testing::write_text(scratch / name, "");
-  const CaptureSequence s = plain_sequence(scratch.path(), {1024, 768});
+  const CaptureSequence s = plain_sequence(scratch.path(), {{}, {1024, 768}});
   EXPECT_THAT(s.pictures, ElementsAre("g_1.png", "g_2.PNG", "g_10.png", "g_010b.png"));
   EXPECT_THAT(testing::input_error([&] {
-                plain_sequence(scratch / "none", {1, 1});
+                plain_sequence(scratch / "none", {{}, {1, 1}});
               }),
               HasSubstr("expected a folder"));
   std::filesystem::create_directory(scratch / "empty");
   EXPECT_THAT(testing::input_error([&] {
-                plain_sequence(scratch / "empty", {1, 1});
+                plain_sequence(scratch / "empty", {{}, {1, 1}});
               }),
               HasSubstr("holds no picture"));
 }

@@ -77,7 +77,7 @@ TEST(SceneFile, FixedKeysAreReadAsTheyStand) {
   EXPECT_EQ(device.lens.parameters.size(), 4u);
   EXPECT_EQ(device.planes.near_m, 0.1);
   EXPECT_EQ(device.planes.far_m, 20.0);
-  EXPECT_EQ(scene.patterns.kind, PatternKind::gray);
+  EXPECT_EQ(scene.patterns.parameters.kind, PatternKind::gray);
 }
 
 TEST(SceneFile, AMeshAloneIsAScene) {
@@ -192,7 +192,9 @@ TEST(SceneFile, WrongTypesNameWhatWasFoundAndExpected) {
   EXPECT_EQ(error_of("patterns = \"gray\"\n"),
             "scene.toml:1: patterns at the top level is the string \"gray\", expected a table");
   EXPECT_EQ(error_of("[patterns]\nkind = \"grey\"\n"),
-            "scene.toml:2: kind in [patterns] is the string \"grey\", expected one of \"gray\", \"slide\"");
+            "scene.toml:2: kind in [patterns] is the string \"grey\", expected one of \"gray\", \"slide\", "
+            "\"gray_phase\", \"phase\", \"multi_frequency\", \"micro_phase\", \"xor_gray\", \"chessboard\", "
+            "\"charuco\", \"pictures\"");
 }
 
 TEST(SceneFile, NumbersOutOfRangeOrNotFinite) {

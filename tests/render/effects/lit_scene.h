@@ -2,6 +2,7 @@
 #pragma once
 
 #include "render/effects/apply_effects.h"
+#include "render/effects/camera_show.h"
 #include "render/effects/pixel_geometry.h"
 #include "tests/render/rig.h"
 
@@ -29,6 +30,23 @@ struct Lit {
 inline Scene facing_plane(const glm::dvec3& projector_m = {0.2, -0.1, 2}) {
   return scene_of({object_of(plane(4, 4))}, device_at({0.1, 0, 2}, {0.1, 0, 0}, {60, 40}, 80),
                   device_at(projector_m, {projector_m.x, projector_m.y, 0}, {100, 80}, 60));
+}
+
+/// What the first camera sees the first projector play, in cd/m²: white light's rows through colour, camera
+/// glare and timing.
+inline ImageStack<float> played(const Scene& scene) {
+  const Lit lit(scene);
+  const ImageRows rows{{lit.surface.width, lit.surface.height},
+                       [&](LightRows& r) { direct_rows(lit.surface, lit.light(), {}, scene.ambient_lx, r); }};
+  const CameraShow show = make_camera_show(scene, 0, 0, rows);
+  return play_luminance(show.rows, scene.projectors[0].lookup, show.show());
+}
+
+/// A slide of one value per primary, and one for grey.
+inline std::shared_ptr<const Slide> plain_slide(glm::ivec2 size, const glm::vec3& rgb, float grey) {
+  Slide slide{Image<float>(size.x, size.y, grey), true};
+  for (int j = 0; j < 3; ++j) slide.primaries.emplace_back(size.x, size.y, rgb[j]);
+  return std::make_shared<const Slide>(std::move(slide));
 }
 
 template <class T>

@@ -110,11 +110,20 @@ TEST(ProjectorDefocus, TheTransposeHolds) {
   EXPECT_NEAR(left / right, 1, 1e-6);  // play_luminance sums in single precision
 }
 
-TEST(ProjectorDefocus, MedianOfWhatIsLit) {
+TEST(ProjectorDefocus, FootprintsStandOnTheMap) {
   Scene scene = coaxial(1.25);
-  EXPECT_EQ(median_footprint_px(testing::Lit(scene).light()), 0);
+  EXPECT_TRUE(testing::Lit(scene).light().footprint_px.values.empty());
   scene.effects.projector_defocus = true;
-  EXPECT_NEAR(median_footprint_px(testing::Lit(scene).light()), 3, 1e-6);  // single precision
+  const testing::Lit lit(scene);
+  for (std::size_t p = 0; p < lit.size(); ++p)
+    EXPECT_NEAR(lit.light().footprint(p), lit.light().lit(p) ? 3 : 0, 1e-6);  // single precision
+}
+
+TEST(ProjectorDefocus, StripesFadeAsTheDiscsTransfer) {
+  EXPECT_EQ(stripe_contrast(0, 2), 1);
+  EXPECT_NEAR(stripe_contrast(2, 2), 0.7217, 1e-4);  // 2·J1(π/2)/(π/2)
+  EXPECT_NEAR(stripe_contrast(4.8787, 2), 0, 1e-4);  // J1's first zero: 3.8317
+  EXPECT_LT(stripe_contrast(6, 2), -0.1);            // spurious resolution
 }
 
 }  // namespace

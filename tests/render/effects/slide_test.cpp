@@ -17,7 +17,7 @@ TEST(Slide, EightBitPicturesKeepTheirBitsAndTheirLight) {
       const double decoded = e <= 0.04045 ? e / 12.92 : std::pow((e + 0.055) / 1.055, 2.4);
       slide.light(v, 0) = float(is_linear ? e : decoded);
     }
-    const PatternStack stack = make_slide_stack(slide, {256, 1});
+    const PatternStack stack = make_slide_stack({&slide, 1}, {256, 1});
     EXPECT_EQ(stack.count, 1);
     for (int v = 0; v < 256; ++v) {
       EXPECT_EQ(stack.values[v], v);
@@ -30,7 +30,7 @@ TEST(Slide, EightBitPicturesKeepTheirBitsAndTheirLight) {
 TEST(Slide, OfAnotherSizeIsRefused) {
   const Slide slide{Image<float>(8, 6), true};
   EXPECT_THAT(testing::input_error([&] {
-                make_slide_stack(slide, {8, 5});
+                make_slide_stack({&slide, 1}, {8, 5});
               }),
               ::testing::AllOf(::testing::HasSubstr("8×6"), ::testing::HasSubstr("8×5")));
 }

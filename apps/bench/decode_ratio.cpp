@@ -1,0 +1,150 @@
+#include "apps/bench/decode_ratio.h"
+
+#include "apps/bench/timing.h"
+#include "calib/decode_gray.h"
+#include "calib/fringe_kernel.h"
+#include "sim/parallel.h"
+
+#include <opencv2/structured_light.hpp>
+
+#include <cmath>
+#include <cstring>
+#include <numbers>
+#include <stdexcept>
+
+namespace laterna {
+
+namespace {
+
+constexpr glm::ivec2 size{1280, 800};
+constexpr double two_pi = 2 * std::numbers::pi;
+
+// A camera that sees the panel pixel upon pixel, white at 200 DN.
+ImageStack<std::uint8_t> pictures_of(const PatternSequence& sequence) {
+  ImageStack<std::uint8_t> stack(size.x, size.y, picture_count(sequence));
+  for (int k = 0; k < stack.count; ++k) {
+    const Image<std::uint8_t> picture = pattern_picture(sequence, k);
+    std::transform(picture.values.begin(), picture.values.end(), stack.picture(k).begin(),
+                   [](std::uint8_t v) { return std::uint8_t(20 + v * 180 / 255); });
+  }
+  return stack;
+}
+
+double read_seconds(const ImageStack<std::uint8_t>& stack) {
+  std::uint64_t sums[8] = {};
+  const double time = seconds([&] {
+    const std::uint8_t* bytes = stack.values.data();
+    for (std::size_t i = 0; i + 64 <= stack.values.size(); i += 64) {
+      std::uint64_t words[8];
+      std::memcpy(words, bytes + i, 64);
+      for (int k = 0; k < 8; ++k) sums[k] += words[k];
+    }
+  });
+  volatile std::uint64_t sink = 0;
+  for (const std::uint64_t sum : sums) sink = sink + sum;
+  return time;
+}
+
+/// OpenCV's decoder on every 61st pixel, as seconds for all of them.
+class Peer {
+ public:
+  explicit Peer(ImageStack<std::uint8_t>& stack)
+      : decoder_(cv::structured_light::GrayCodePattern::create(size.x, size.y)) {
+    decoder_->setBlackThreshold(40), decoder_->setWhiteThreshold(5);
+    for (int k = 0; k + 2 < stack.count; ++k)
+      pictures_.emplace_back(size.y, size.x, CV_8UC1, stack.picture(k).data());
+  }
+  double seconds_for_all(const GrayCodes& ours) const {
+    std::size_t asked = 0, wrong = 0;
+    const double time = seconds([&] {
+      for (std::size_t i = 0; i < ours.valid.values.size(); i += 61, ++asked) {
+        cv::Point pixel;
+        const bool error = decoder_->getProjPixel(pictures_, int(i % size.x), int(i / size.x), pixel);
+        wrong += error || !ours.valid.values[i] || pixel.x != ours.column.values[i] ||
+                 pixel.y != ours.row.values[i];
+      }
+    });
+    if (wrong) throw std::runtime_error("OpenCV decodes other projector pixels");
+    return time * double(ours.valid.values.size()) / double(asked);
+  }
+
+ private:
+  cv::Ptr<cv::structured_light::GrayCodePattern> decoder_;
+  std::vector<cv::Mat> pictures_;
+};
+
+/// Four steps of a fringe, in blocks whose results stay in the cache, as decoding does it.
+class Fringe {
+ public:
+  Fringe() : stack_(size.x, size.y, 4) {
+    for (int j = 0; j < 4; ++j)
+      for (std::size_t i = 0; i < stack_.picture_size(); ++i)
+        stack_.picture(j)[i] =
+            std::uint8_t(std::lround(120 + 90 * std::cos(two_pi * (double(i % 4099) / 4099 + j / 4.0))));
+  }
+  double own_seconds() {
+    constexpr float cosines[] = {0.5f, 0, -0.5f, 0}, sines[] = {0, -0.5f, 0, 0.5f};
+    return seconds([&] {
+      for_blocks([&](const std::uint8_t* const* pictures, std::size_t count) {
+        fit_fringe(pictures, 4, cosines, sines, count, {mean_, c_, s_, own_});
+      });
+    });
+  }
+  double libm_seconds() {
+    return seconds([&] {
+      for_blocks([&](const std::uint8_t* const* p, std::size_t count) {
+        for (std::size_t i = 0; i < count; ++i)
+          libm_[i] = std::atan2(double(p[3][i] - p[1][i]), double(p[0][i] - p[2][i])) / two_pi;
+      });
+    });
+  }
+  void check() const {
+    for (std::size_t i = 0; i < block; ++i) {
+      const double apart = own_[i] - libm_[i];
+      if (two_pi * std::abs(apart - std::round(apart)) > 5e-6)
+        throw std::runtime_error("phases differ by more than 5e-6 rad");
+    }
+  }
+
+ private:
+  static constexpr std::size_t block = 4096;
+  template <class Body>
+  void for_blocks(const Body& body) {
+    for (std::size_t begin = 0; begin + block <= stack_.picture_size(); begin += block) {
+      const std::uint8_t* pictures[4];
+      for (int j = 0; j < 4; ++j) pictures[j] = stack_.picture(j).data() + begin;
+      body(pictures, block);
+    }
+  }
+
+  ImageStack<std::uint8_t> stack_;
+  float mean_[block], c_[block], s_[block], own_[block];
+  double libm_[block];
+};
+
+}  // namespace
+
+DecodeTimes time_decode(int repeats) {
+  const int threads = thread_count();
+  set_thread_count(1);
+  const PatternSequence sequence{{}, size};
+  CapturedStack stack = pictures_of(sequence);
+  auto& pictures = std::get<ImageStack<std::uint8_t>>(stack);
+  const Peer peer(pictures);
+  auto fringe = std::make_unique<Fringe>();
+  GrayCodes codes;
+  std::vector<double> over_read, opencv, atan2;
+  for (int i = -1; i < repeats; ++i) {  // the first round warms up
+    const double read = read_seconds(pictures);
+    const double gray = seconds([&] { decode_gray_codes(stack, sequence, {40, 6, 0, 0}, codes); });
+    const double other = peer.seconds_for_all(codes);
+    const double own = fringe->own_seconds(), libm = fringe->libm_seconds();
+    fringe->check();
+    if (i < 0) continue;
+    over_read.push_back(gray / read), opencv.push_back(other / gray), atan2.push_back(libm / own);
+  }
+  set_thread_count(threads);
+  return {median(over_read), median(opencv), median(atan2)};
+}
+
+}  // namespace laterna

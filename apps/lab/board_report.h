@@ -1,0 +1,33 @@
+// What a calibration from boards found, for machines and for people.
+#pragma once
+
+#include "calib/boards/calibrate_boards.h"
+#include "calib/peers/board_methods.h"
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <string>
+
+namespace laterna {
+
+/// {"status", "reason", "fit_rms_px", "held_out_px": {"rms", "folds": [rms of each pose]}, "cameras":
+/// [{"name", "size", "fx", "fy", "cx", "cy", "lens": {"model", "parameters"}, "sigma": {...}, "sigma_px",
+/// "fit_rms_px", "coverage", "prediction_sigma_px": [{"range", "center", "rms", "worst"}]}], "projectors":
+/// [the same and "device_from_camera": 3×4], "board_bend", "parameters", "covariance" (row-major, in their
+/// order), "predicted_volume_px": {"independent", "jackknife"}, "weakest": {"direction", "sigma", "gap"},
+/// "correlations", "poses", "dropped", "ladder"}. Device 0 is a camera, the others are projectors.
+/// x_projector = R·x_camera + t in the file's unit of length. Without an estimate the lists are empty and the
+/// numbers null; a number that is not finite is null.
+nlohmann::json board_json(const BoardCalibration& calibration);
+
+/// The same as a report to read: ladder, parameters with sigmas, poses, how sure the pixels are, verdict.
+std::string board_text(const BoardCalibration& calibration);
+
+/// [{"method", "failure", "fit_rms_px", "held_out_px": {"rms", "folds", "failed"}, "seconds", "projector":
+/// {"fx", "fy", "cx", "cy"}}]: every method on the same sightings.
+nlohmann::json methods_json(const std::vector<MethodResult>& results);
+
+/// The same as a table.
+std::string methods_text(const std::vector<MethodResult>& results);
+
+}  // namespace laterna

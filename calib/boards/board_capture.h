@@ -1,0 +1,59 @@
+// What a rig of devices saw of a board that was held in several poses.
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include <string>
+#include <vector>
+
+namespace laterna {
+
+/// A camera or a projector of the rig, as far as it is known before calibrating.
+struct BoardDevice {
+  std::string name;
+  glm::ivec2 size{0, 0};  ///< W, H in pixels
+};
+
+/// A point of the board and the pixel at which a device sees it or, for a projector, lights it. Integer
+/// coordinates are pixel centres.
+struct Sighting {
+  int device = 0, pose = 0;  ///< indices into BoardCapture::devices and ::pose_labels
+  int corner = 0;            ///< the file's own number, for messages only
+  glm::dvec3 x_board{0.0};   ///< in the capture's unit of length
+  glm::dvec2 pixel{0.0};
+  double sigma_px = 1;  ///< per coordinate
+};
+
+/// The board's extent in x and y, over which it may bend: (x - center)/half_size is in [-1, 1].
+struct BoardExtent {
+  glm::dvec2 center{0.0}, half_size{1.0};
+};
+
+/// Devices, poses and sightings. The frame of device 0 is the rig's: it must be a camera that sees every
+/// pose. Lengths are in one unit, whichever it is; translations come out in it.
+struct BoardCapture {
+  std::vector<BoardDevice> devices;
+  std::vector<int> pose_labels;  ///< the file's own numbers
+  std::vector<Sighting> sightings;
+  BoardExtent extent;
+
+  int pose_count() const { return int(pose_labels.size()); }
+};
+
+/// Throws InputError where a size is unusable, an index is out of range, a number is not finite, a sigma is
+/// not positive, or a pixel lies outside its device's image by more than a tenth of the size.
+void validate(const BoardCapture& capture);
+
+/// The extent of all board points in x and y.
+BoardExtent extent_of(const std::vector<Sighting>& sightings);
+
+/// The poses with the given indices, in that order; the board's extent stays.
+BoardCapture with_poses(const BoardCapture& capture, const std::vector<int>& poses);
+
+/// All poses but one.
+BoardCapture without_pose(const BoardCapture& capture, int pose);
+
+/// The sightings of one device alone; devices and poses keep their indices.
+BoardCapture seen_by(const BoardCapture& capture, int device);
+
+}  // namespace laterna

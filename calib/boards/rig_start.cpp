@@ -1,0 +1,168 @@
+#include "calib/boards/rig_start.h"
+
+#include "calib/boards/adjust.h"
+#include "calib/candidates.h"
+
+#include <fmt/format.h>
+
+#include <opencv2/calib3d.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace laterna {
+
+namespace {
+
+constexpr double start_sigma_px = 1;  // a start is good or bad in pixels, whatever the noise
+
+struct PosePoints {
+  std::vector<cv::Point3f> board;
+  std::vector<cv::Point2f> pixel;
+};
+
+PosePoints points_of(const BoardCapture& capture, int device, int pose) {
+  PosePoints points;
+  for (const Sighting& s : capture.sightings) {
+    if (s.device != device || s.pose != pose) continue;
+    points.board.emplace_back(float(s.x_board.x), float(s.x_board.y), float(s.x_board.z));
+    points.pixel.emplace_back(float(s.pixel.x), float(s.pixel.y));
+  }
+  return points;
+}
+
+bool is_flat(const std::vector<cv::Point3f>& board) {
+  return std::all_of(board.begin(), board.end(), [](const cv::Point3f& x) { return x.z == 0; });
+}
+
+Rigid rigid_of(const cv::Mat& rotation_vector, const cv::Mat& translation) {
+  const auto vector = [](const cv::Mat& m) {
+    return glm::dvec3(m.at<double>(0), m.at<double>(1), m.at<double>(2));
+  };
+  return rigid_from_rotation_vector(vector(rotation_vector), vector(translation));
+}
+
+// Zhang's focal length; 0 where the homographies give none.
+double focal_from_homographies(const BoardCapture& capture) {
+  std::vector<std::vector<cv::Point3f>> boards;
+  std::vector<std::vector<cv::Point2f>> pixels;
+  for (int k = 0; k < capture.pose_count(); ++k) {
+    PosePoints points = points_of(capture, 0, k);
+    if (!is_flat(points.board)) return 0;
+    boards.push_back(std::move(points.board));
+    pixels.push_back(std::move(points.pixel));
+  }
+  const glm::ivec2 size = capture.devices[0].size;
+  try {
+    const cv::Mat k = cv::initCameraMatrix2D(boards, pixels, {size.x, size.y}, 1);
+    const double f = k.at<double>(0, 0);
+    return std::isfinite(f) && f > 0.05 * size.x && f < 100.0 * size.x ? f : 0;
+  } catch (const cv::Exception&) {
+    return 0;
+  }
+}
+
+RigModel camera_alone(const BoardCapture& capture) {
+  RigModel model;
+  model.devices.assign(capture.devices.size(), {});
+  for (DeviceModel& m : model.devices) m.held = true;
+  model.devices[0].held = false;
+  model.devices[0].one_focal_length = model.devices[0].fixed_center = true;
+  return model;
+}
+
+// The camera and all poses from one focal length.
+std::optional<Adjustment> camera_from_focal(const BoardCapture& capture, double f) {
+  const glm::ivec2 size = capture.devices[0].size;
+  BoardRig rig;
+  rig.devices.resize(capture.devices.size());
+  for (RigDevice& device : rig.devices) device.parameters = {f, f, (size.x - 1) / 2.0, (size.y - 1) / 2.0};
+  for (int k = 0; k < capture.pose_count(); ++k) {
+    const auto pose = board_pose(capture, k, rig.devices[0].parameters);
+    if (!pose) return std::nullopt;
+    rig.camera_from_board.push_back(*pose);
+  }
+  BoardCapture camera = seen_by(capture, 0);
+  for (Sighting& s : camera.sightings) s.sigma_px = start_sigma_px;
+  return adjust({camera, camera_alone(capture), {RobustLoss::Kind::cauchy, 3}}, rig, 100);
+}
+
+std::optional<BoardRig> start_camera(const BoardCapture& capture) {
+  std::optional<Adjustment> best;
+  const auto consider = [&](double f) {
+    auto tried = camera_from_focal(capture, f);
+    if (tried && tried->rig.devices[0].parameters[0] > 0 && (!best || tried->loss < best->loss))
+      best = std::move(tried);
+  };
+  const double zhang = focal_from_homographies(capture);
+  if (zhang > 0) consider(zhang);
+  const double corners = double(seen_by(capture, 0).sightings.size());
+  if (!best || best->loss > 9 * corners) {  // beyond some 3 px rms
+    for (const double throw_ratio : {0.5, 1.0, 2.0, 5.0}) consider(throw_ratio * capture.devices[0].size.x);
+  }
+  if (!best) return std::nullopt;
+  return best->rig;
+}
+
+// A pinhole device from board points in the camera's frame; the reason where there is none.
+std::string start_device(const BoardCapture& capture, int d, BoardRig& rig) {
+  Correspondences c;
+  for (const Sighting& s : capture.sightings) {
+    if (s.device != d) continue;
+    c.world_points.push_back(apply(rig.camera_from_board[s.pose], s.x_board));
+    c.projector_pixels.push_back(s.pixel);
+    c.sigma_px.push_back(start_sigma_px);
+  }
+  const std::string& name = capture.devices[d].name;
+  const LensGradient pinhole("LENSMODEL_PINHOLE");
+  const GeometryReport geometry = check_geometry(c, pinhole.parameter_count() + 6);
+  if (geometry.verdict != Geometry::sound) return fmt::format("{}: {}", name, geometry.reason);
+  const WorldNormalisation n = normalisation_of(c.world_points);
+  const PointTable points = point_table(c, n);
+  const BestRefinement best =
+      best_refinement(c, points, n, capture.devices[d].size, pinhole, geometry, SolveOptions{});
+  if (!best.refinement) return fmt::format("{}: {}", name, best.refusal);
+  rig.devices[d] = {best.refinement->state.parameters,
+                    device_from_world(best.refinement->state.device_from_points, n)};
+  return "";
+}
+
+}  // namespace
+
+std::optional<Rigid> board_pose(const BoardCapture& capture, int pose, const std::vector<double>& k) {
+  const PosePoints points = points_of(capture, 0, pose);
+  if (points.board.size() < 4) return std::nullopt;
+  const cv::Matx33d matrix(k[0], 0, k[2], 0, k[1], k[3], 0, 0, 1);
+  std::vector<cv::Mat> rotations, translations;
+  try {
+    cv::solvePnPGeneric(points.board, points.pixel, matrix, cv::noArray(), rotations, translations, false,
+                        is_flat(points.board) ? cv::SOLVEPNP_IPPE : cv::SOLVEPNP_SQPNP);
+  } catch (const cv::Exception&) {
+    return std::nullopt;
+  }
+  for (std::size_t n = 0; n < rotations.size(); ++n) {  // sorted by reprojection error
+    const Rigid camera_from_board = rigid_of(rotations[n], translations[n]);
+    const bool in_front = std::all_of(points.board.begin(), points.board.end(), [&](const cv::Point3f& x) {
+      return apply(camera_from_board, {x.x, x.y, x.z}).z > 0;
+    });
+    if (in_front) return camera_from_board;
+  }
+  return std::nullopt;
+}
+
+RigStart start_rig(const BoardCapture& capture) {
+  if (capture.pose_count() == 0) return {{}, "no pose: the capture has no sighting"};
+  std::optional<BoardRig> rig = start_camera(capture);
+  if (!rig)
+    return {{},
+            fmt::format("{}: no focal length gives every board a pose in front of it (is a picture mirrored, "
+                        "or are all corners of a pose on one line?)",
+                        capture.devices[0].name)};
+  for (int d = 1; d < int(capture.devices.size()); ++d) {
+    const std::string refusal = start_device(capture, d, *rig);
+    if (!refusal.empty()) return {{}, refusal};
+  }
+  return {rig, ""};
+}
+
+}  // namespace laterna
