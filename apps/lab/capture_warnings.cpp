@@ -14,7 +14,7 @@ namespace {
 constexpr int every_strip = 8;
 constexpr double finest_stripe_px = 2;  // in a reflected code bit 0 changes every other pixel
 
-double median_footprint_px(const Scene& scene, const Rig& rig, int camera, int projector) {
+double median_footprint_px(const Scene& scene, const SceneRays& rig, int camera, int projector) {
   const StripTracer tracer(scene, rig, camera, projector);
   std::vector<float> footprints;
   for (int row = 0; row < tracer.count(); row += every_strip) {
@@ -30,7 +30,7 @@ double median_footprint_px(const Scene& scene, const Rig& rig, int camera, int p
 
 }  // namespace
 
-std::vector<std::string> capture_warnings(const Scene& scene, const Rig& rig) {
+std::vector<std::string> capture_warnings(const Scene& scene, const SceneRays& rig) {
   std::vector<std::string> warnings;
   if (!scene.effects.projector_defocus || scene.effects.slide) return warnings;
   for (int camera = 0; camera < int(scene.cameras.size()); ++camera) {

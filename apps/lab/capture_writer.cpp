@@ -84,7 +84,7 @@ std::size_t bytes_of(const CapturedStack& stack) {
 }
 
 // One view to disk.
-CaptureSequence write_view(const Scene& scene, const Rig& rig, int camera, int projector,
+CaptureSequence write_view(const Scene& scene, const SceneRays& rig, int camera, int projector,
                            const std::filesystem::path& root, const CaptureOptions& options,
                            StageTimes& times, const Progress& progress) {
   const double saturation = saturation_cd_per_m2(scene, rig, camera, projector, times);
@@ -123,7 +123,7 @@ std::vector<std::string> write_capture(const SceneSpec& spec, const Scene& scene
   check_format(options.format, scene);
   PendingFolder pending(target);
   const std::filesystem::path root = pending.path();
-  const Rig rig = make_rig(scene, times);
+  const SceneRays rig = make_rig(scene, times);
   const std::vector<std::string> warnings = capture_warnings(scene, rig);
   for (const std::string& warning : warnings)
     if (progress) progress(warning);

@@ -35,7 +35,7 @@ int find_named(const Nouns& nouns, const std::string& name, const char* option, 
 // What the words name, ready for rays.
 struct Selected {
   const Scene& scene;
-  const Rig rig;
+  const SceneRays rig;
   int camera, projector;
 
   Selected(const Scene& s, const RenderOptions& options, StageTimes& times)

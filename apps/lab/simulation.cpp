@@ -49,12 +49,12 @@ ImageRows direct_view_rows(const Scene& scene, const Traced& traced, const View&
 
 }  // namespace
 
-Rig make_rig(const Scene& scene, StageTimes& times) {
+SceneRays make_rig(const Scene& scene, StageTimes& times) {
   if (scene.projectors.empty()) throw InputError("the scene has no [[projector]], expected at least one");
   if (scene.cameras.empty()) throw InputError("the scene has no [[camera]], expected at least one");
   std::optional<Scene> moved;
   times.measure("build", [&] { displaced(scene, moved); });
-  Rig rig{times.measure("build", [&] { return RayScene(moved ? *moved : scene); }), {}, {}};
+  SceneRays rig{times.measure("build", [&] { return RayScene(moved ? *moved : scene); }), {}, {}};
   if (moved) rig.displaced = std::make_unique<const Scene>(std::move(*moved));
   times.measure("surface", [&] {
     for (const Camera& camera : scene.cameras) rig.directions.emplace_back(camera.device);
@@ -62,7 +62,7 @@ Rig make_rig(const Scene& scene, StageTimes& times) {
   return rig;
 }
 
-StripTracer::StripTracer(const Scene& scene, const Rig& rig, int camera, int projector)
+StripTracer::StripTracer(const Scene& scene, const SceneRays& rig, int camera, int projector)
     : scene_(rig.as_seen(scene)),
       rig_(rig),
       camera_(camera),
@@ -84,7 +84,7 @@ Strip StripTracer::trace(int tile_row) const {
   return strip;
 }
 
-ImageRows rig_rows(const Scene& scene, const Rig& rig, int camera, int projector,
+ImageRows rig_rows(const Scene& scene, const SceneRays& rig, int camera, int projector,
                    const PixelSamples& samples) {
   const CameraRays& directions = rig.directions[camera];
   return {{directions.width(), directions.height()},
@@ -101,7 +101,7 @@ ImageRows in_colour(ImageRows rows, const Scene& scene, int camera, int projecto
 
 // Rows by which a view is exposed: those of pixel centres, or, where surfaces light each other, which costs
 // many rays, those of every sixteenth tile along diagonals.
-ImageRows exposure_rows(const Scene& scene, const Rig& rig, int camera, int projector) {
+ImageRows exposure_rows(const Scene& scene, const SceneRays& rig, int camera, int projector) {
   const ImageRows all = in_colour(rig_rows(scene, rig, camera, projector, {}), scene, camera, projector);
   if (!scene.effects.inter_reflection) return all;
   const RowSource some = [rows = all.rows](LightRows& out) {
@@ -116,7 +116,7 @@ ImageRows exposure_rows(const Scene& scene, const Rig& rig, int camera, int proj
 
 }  // namespace
 
-double saturation_cd_per_m2(const Scene& scene, const Rig& rig, int camera, int projector,
+double saturation_cd_per_m2(const Scene& scene, const SceneRays& rig, int camera, int projector,
                             StageTimes& times) {
   const std::optional<double> fixed = fixed_saturation_cd_per_m2(scene.cameras[camera].sensor);
   if (fixed) return *fixed;
@@ -192,7 +192,7 @@ CapturedStack capture_rows(const Scene& scene, int camera, int projector, const 
       "capture", [&] { return play_stack(played.rows, source.lookup, played.show(), exposure); });
   if (!moves(scene, camera, projector)) return stack;
   const Scene moved = after_move(scene);
-  const Rig rig = make_rig(moved, times);
+  const SceneRays rig = make_rig(moved, times);
   const ImageRows moved_rows = rig_rows(moved, rig, camera, projector, samples_of(moved, camera, seed));
   splice(stack, capture_rows(moved, camera, projector, moved_rows, saturation_cd_per_m2, seed, times),
          scene.timing.moved.from_picture);

@@ -46,7 +46,7 @@ struct View {
 };
 
 /// A scene ready for rays, and the rays of its cameras.
-struct Rig {
+struct SceneRays {
   RayScene rays;
   std::vector<CameraRays> directions;  ///< one per camera
   std::unique_ptr<const Scene>
@@ -56,10 +56,10 @@ struct Rig {
 };
 
 /// Throws InputError where the scene has no projector or no camera.
-Rig make_rig(const Scene& scene, StageTimes& times);
+SceneRays make_rig(const Scene& scene, StageTimes& times);
 
 /// What does not depend on the patterns: rays are traced once.
-struct Traced : Rig {
+struct Traced : SceneRays {
   std::vector<SurfaceMap> surfaces;  ///< one per camera
   std::vector<PixelArray<glm::dvec3>>
       points_world;         ///< one per camera: what each pixel sees, m; NaN where nothing
@@ -79,25 +79,26 @@ struct Strip {
 /// Traces one view strip by strip, so that no map of the image is held. What it is made from must outlive it.
 class StripTracer {
  public:
-  StripTracer(const Scene& scene, const Rig& rig, int camera, int projector);
+  StripTracer(const Scene& scene, const SceneRays& rig, int camera, int projector);
   int count() const;  ///< of rows of tiles
   Strip trace(int tile_row) const;
 
  private:
   const Scene& scene_;
-  const Rig& rig_;
+  const SceneRays& rig_;
   int camera_, projector_;
   CameraView eye_;
   ProjectorView source_;
 };
 
 /// The rows of one view, with every effect of the scene, traced at each call: no map of the image is held.
-ImageRows rig_rows(const Scene& scene, const Rig& rig, int camera, int projector,
+ImageRows rig_rows(const Scene& scene, const SceneRays& rig, int camera, int projector,
                    const PixelSamples& samples);
 
 /// The luminance that fills the scale: the sensor's own, or automatic, from the light at pixel centres (at
 /// every sixteenth tile of them with inter-reflection).
-double saturation_cd_per_m2(const Scene& scene, const Rig& rig, int camera, int projector, StageTimes& times);
+double saturation_cd_per_m2(const Scene& scene, const SceneRays& rig, int camera, int projector,
+                            StageTimes& times);
 
 /// The rows of one view, with every effect of the scene: from the maps where a pixel's row is the direct
 /// light at its centre, else traced anew at each call. `scene` and `traced` must outlive the result. `seed`

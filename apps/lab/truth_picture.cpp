@@ -16,7 +16,7 @@ const std::vector<std::string>& layers() {
   return names;
 }
 
-void write_strip(const Scene& scene, const Rig& rig, const SurfaceMap& surface, const LightMap& light,
+void write_strip(const Scene& scene, const SceneRays& rig, const SurfaceMap& surface, const LightMap& light,
                  float* to) {
   const PixelArray<glm::dvec3> points = points_world(surface, scene),
                                normals = normals_world(surface, rig.rays);
@@ -31,7 +31,7 @@ void write_strip(const Scene& scene, const Rig& rig, const SurfaceMap& surface, 
 
 }  // namespace
 
-void write_truth(const std::filesystem::path& path, const Scene& given, const Rig& rig, int camera,
+void write_truth(const std::filesystem::path& path, const Scene& given, const SceneRays& rig, int camera,
                  int projector) {
   const Scene& scene = rig.as_seen(given);
   const CameraRays& directions = rig.directions[camera];

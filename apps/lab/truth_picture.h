@@ -11,7 +11,7 @@ namespace laterna {
 /// nothing is seen), projector.lit (1 or 0), depth.m (axial, NaN where nothing is seen), normal.x, .y, .z
 /// (world), world.x, .y, .z (m), object.id (-1: none). Of the point at each pixel's centre; traced in strips,
 /// so that nothing of the image's size is held but the picture itself.
-void write_truth(const std::filesystem::path& path, const Scene& scene, const Rig& rig, int camera,
+void write_truth(const std::filesystem::path& path, const Scene& scene, const SceneRays& rig, int camera,
                  int projector);
 
 }  // namespace laterna
