@@ -80,6 +80,11 @@ AxisResult decode_axis(const Setting& s, const AxisPictures<T>& pictures) {
   }
 }
 
+/// Half a pixel from the middle of the outermost pixels there is no neighbour to blend with.
+float edge_variance(double place_px, int size_px) {
+  return place_px < 0.5 || place_px > size_px - 1.5 ? 1 / 12.0f : 0;
+}
+
 /// A whole map, with the variances of u and v apart.
 struct Decoding {
   DecodedMap map;
@@ -106,7 +111,9 @@ void decode_segment(const ImageStack<T>& stack, const Setting& s, std::size_t be
     }
     map.u_px.values[pixel] = u.places.place_px[i], map.v_px.values[pixel] = v.places.place_px[i];
     map.valid.values[pixel] = 1;
-    out.variance_u[pixel] = float(u.places.variance[i]), out.variance_v[pixel] = float(v.places.variance[i]);
+    const glm::ivec2 size = s.sequence.projector_size;
+    out.variance_u[pixel] = float(u.places.variance[i]) + edge_variance(u.places.place_px[i], size.x);
+    out.variance_v[pixel] = float(v.places.variance[i]) + edge_variance(v.places.place_px[i], size.y);
   }
 }
 

@@ -24,8 +24,9 @@ struct PhaseDecodeOptions {
 /// u and v are places between pixels. `sigma_px` comes from modulation and noise (calib/fringe_fit.h) and
 /// covers what contradicts the sinusoid. Where the camera sees the panel's pixels as boxes, phases are whole
 /// numbers whatever the noise: with R = |mean exp(2πi·u)|, 1 for whole numbers and 0 for even spread, R/12 is
-/// added to the variance of u (likewise v) where R > 5/√n. `confidence` is the weakest fringe's modulation
-/// over (white - black)/2, at most 1.
+/// added to the variance of u (likewise v) where R > 5/√n. Beyond the middle of the outermost pixels the
+/// light ends, and phases lean inwards: within half a pixel of those, 1/12 is added too. `confidence` is the
+/// weakest fringe's modulation over (white - black)/2, at most 1.
 ///
 /// Throws InputError where the number of pictures is not that of the sequence, the family is another, or an
 /// option is not finite or negative. The same bits for any number of threads.

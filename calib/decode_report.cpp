@@ -10,7 +10,7 @@ namespace {
 
 constexpr double contrast_share = 40 / 255.0;  // where sums are looked at: noise matters less
 constexpr double bent_misfit = 0.08, odd_misfit = 0.03, odd_factor = 3;
-constexpr double many = 0.2;
+constexpr double many = 0.4;  // a dropped picture of a code takes half of the pixels
 
 constexpr const char* names[reject_reasons] = {"valid",    "dim",     "saturated", "pair",
                                                "disagree", "outside", "steep"};

@@ -22,8 +22,8 @@ struct DecodeReport {
   std::vector<std::string> flags;    ///< sentences; empty where nothing looks wrong
 };
 
-/// Flags: a mirrored picture, or one whose handedness differs from place to place; more than a fifth of the
-/// lit pixels rejected for one reason; fringes that sum to something else than half of white and black
+/// Flags: a mirrored picture, or one whose handedness differs from place to place; more than two fifths of
+/// the lit pixels rejected for one reason; fringes that sum to something else than half of white and black
 /// (misfit above 0.08: a response that is not linear); one group that does so more than three times as much
 /// as the median group (and above 0.03: a dropped or exchanged picture); pixels outside black and white;
 /// nothing lit.

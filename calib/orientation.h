@@ -15,7 +15,7 @@ struct Orientation {
   bool mirrored = false;  ///< of the majority
   int quarter_turns = 0;  ///< 0 to 3, clockwise as the camera sees the picture; of a mirrored one after
                           ///< flipping its columns
-  double agreement = 0;  ///< share of the pixels that have the majority's handedness
+  double agreement = 0;   ///< share of the pixels that have the majority's handedness
 };
 
 /// From differences of u and v over 8 camera pixels.

@@ -31,10 +31,47 @@ struct Span {
 
 int floor_mod(int a, int m) { return (a % m + m) % m; }
 
+// What is spread by less than a 32nd (rms) of a disc's diameter is folded into the disc: an even disc
+// has a mean square distance of d²/8 from its centre.
+constexpr double folded_diameter2 = 8.0 / (32 * 32);
+
+// The entries' own discs; one of the same light, centre and second moment where they nearly coincide.
+std::vector<Disc> spots_of(std::span<const LightEntry> entries) {
+  std::vector<Disc> spots;
+  double weight = 0, diameter2 = 0, least = farthest_px;
+  glm::dvec2 center(0);
+  for (const LightEntry& e : entries) {
+    spots.push_back(
+        {glm::clamp(glm::dvec2(e.u_px, e.v_px), -farthest_px, farthest_px), e.footprint_px / 2.0, e.weight});
+    weight += e.weight;
+    center += e.weight * spots.back().center_px;
+    diameter2 += e.weight * e.footprint_px * e.footprint_px;
+    least = std::min(least, double(e.footprint_px));
+  }
+  if (entries.size() < 2 || !(weight > 0)) return spots;
+  center /= weight;
+  double spread2 = 0;
+  for (const Disc& s : spots)
+    spread2 += s.weight / weight * glm::dot(s.center_px - center, s.center_px - center);
+  if (!(8 * spread2 <= folded_diameter2 * least * least)) return spots;
+  return {{center, std::sqrt(diameter2 / weight + 8 * spread2) / 2, weight}};
+}
+
+// A point spread, and one disc of its second moment.
+struct PointSpread {
+  double mean_diameter2 = 0;
+  std::vector<DiscShare> folded;
+
+  explicit PointSpread(const std::vector<DiscShare>& discs) {
+    for (const DiscShare& disc : discs) mean_diameter2 += disc.share * disc.diameter_px * disc.diameter_px;
+    folded = {{std::sqrt(mean_diameter2), 1}};
+  }
+};
+
 // Spreads the entries of one source at one camera pixel over a grid of cells.
 class Spreader {
  public:
-  explicit Spreader(const PanelBlur& blur) : blur_(blur) {}
+  explicit Spreader(const PanelBlur& blur) : blur_(blur), point_spread_(blur.discs) {}
 
   void spread(std::span<const LightEntry> entries, std::vector<LightEntry>& out) {
     make_discs(entries);
@@ -60,11 +97,12 @@ class Spreader {
   void make_discs(std::span<const LightEntry> entries) {
     discs_.clear();
     double widest_px = 0;
-    for (const LightEntry& e : entries) {
-      const glm::dvec2 center = glm::clamp(glm::dvec2(e.u_px, e.v_px), -farthest_px, farthest_px);
-      for (const DiscShare& disc : blur_.discs) {
-        const double diameter = std::min(std::hypot(e.footprint_px, disc.diameter_px), farthest_px);
-        discs_.push_back({center, diameter / 2, disc.share * e.weight});
+    for (const Disc& spot : spots_of(entries)) {
+      const bool small =
+          point_spread_.mean_diameter2 <= folded_diameter2 * 4 * spot.radius_px * spot.radius_px;
+      for (const DiscShare& disc : small ? point_spread_.folded : blur_.discs) {
+        const double diameter = std::min(std::hypot(2 * spot.radius_px, disc.diameter_px), farthest_px);
+        discs_.push_back({spot.center_px, diameter / 2, disc.share * spot.weight});
         widest_px = std::max(widest_px, diameter);
       }
     }
@@ -128,6 +166,7 @@ class Spreader {
   }
 
   const PanelBlur& blur_;
+  PointSpread point_spread_;
   int cell_px_ = 1;
   double side_ = 1;
   Box box_{};

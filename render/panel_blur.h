@@ -32,7 +32,10 @@ inline constexpr int most_cells_across = 32;
 /// (two discs one after the other are again one of the same second moment: exact where either is 0). So the
 /// light of a white picture is kept, but for what falls beyond the panel. The areas are exact: with
 /// Lookup::nearest this is the disc over panel pixels that are boxes; Lookup::bilinear reads the same there.
-/// Entries of one pixel and one source that meet in a panel pixel become one.
+/// Entries of one pixel and one source that meet in a panel pixel become one. Where centres of entries (or
+/// `discs`) spread by less than a 32nd, rms, of the footprint, one disc of the same light, centre and second
+/// moment stands for them: the rays of an antialiased pixel then cost no more than one, and at most 2.5 % of
+/// the light stands in a neighbouring pixel.
 ///
 /// A disc wider than most_cells_across pixels is cut into cells of m×m panel pixels, m the smallest that
 /// keeps it within that many cells; one pixel speaks for its cell, a different column and row of it from

@@ -1,6 +1,8 @@
 #include "sim/effect_checks.h"
 
 #include "sim/error.h"
+#include "sim/field_text.h"
+#include "sim/scene_fields.h"
 
 #include <fmt/format.h>
 
@@ -89,7 +91,8 @@ void check_slide(const SceneSpec& scene) {
   const PatternKind kind = scene.patterns.parameters.kind;
   const bool is_slide = kind == PatternKind::slide, is_list = kind == PatternKind::pictures;
   if (scene.effects.slide && !is_slide)
-    throw InputError("[effects]: slide is on, but kind of [patterns] is another, expected \"slide\"");
+    throw InputError(fmt::format("[effects]: slide is on, but kind of [patterns] is {}, expected \"slide\"",
+                                 toml_text(kind)));
   if (!scene.effects.slide && is_slide)
     throw InputError(
         "[patterns]: kind is \"slide\", but slide of [effects] is off, expected slide = true there");

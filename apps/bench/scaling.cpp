@@ -4,6 +4,7 @@
 #include "render/replay.h"
 #include "render/trace_rows.h"
 #include "sim/pattern.h"
+#include "sim/shapes.h"
 
 #include <fmt/format.h>
 
@@ -91,7 +92,9 @@ int ScalingPoint::value() const {
   return axis == axes[0] ? patterns : axis == axes[1] ? samples : axis == axes[2] ? bounces : paths;
 }
 
-std::vector<ScalingPoint> time_scaling(const Scene& scene, int repeats) {
+std::vector<ScalingPoint> time_scaling(Scene scene, int repeats) {
+  Object& walls = scene.objects.emplace_back();
+  walls.name = "walls", walls.mesh = box({8, 8, 8}, true);
   const RayScene rays(scene);
   std::vector<ScalingPoint> points = plan();
   for (ScalingPoint& point : points) time_point(point, scene, rays, repeats);

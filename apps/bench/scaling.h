@@ -17,9 +17,10 @@ struct ScalingPoint {
   int value() const;  ///< the number that `axis` names
 };
 
-/// Four series, each along one axis; seconds are medians over `repeats`, the scene's rays being ready. The
-/// picture is a Gray sequence's first patterns, over and over.
-std::vector<ScalingPoint> time_scaling(const Scene& scene, int repeats);
+/// Four series, each along one axis, of what `scene` is with walls 4 m about the origin, so that every path
+/// goes on; seconds are medians over `repeats`, the scene's rays being ready. The patterns are those of a
+/// Gray sequence, over and over.
+std::vector<ScalingPoint> time_scaling(Scene scene, int repeats);
 
 /// Seconds as a + b·value by least squares over a series, and the largest relative distance from it.
 struct StraightLine {

@@ -54,7 +54,7 @@ std::vector<double> free_intrinsics(const std::vector<int>& columns, const std::
   return free;
 }
 
-void fill(Blocks& b, const RigProblem& problem, const Rig& rig) {
+void fill(Blocks& b, const RigProblem& problem, const BoardRig& rig) {
   b.values.reserve(std::size_t(problem.columns.count) + rig.devices.size() +
                    7 * rig.camera_from_board.size());  // so that nothing moves
   for (int d = 0; d < int(rig.devices.size()); ++d) {
@@ -75,7 +75,7 @@ void fill(Blocks& b, const RigProblem& problem, const Rig& rig) {
 }
 
 void write_rig(const RigProblem& problem, const std::vector<Slot>& slots, double const* const* values,
-               Rig& rig) {
+               BoardRig& rig) {
   for (std::size_t n = 0; n < slots.size(); ++n) {
     const Slot& slot = slots[n];
     RigDevice& device = rig.devices[slot.device];
@@ -92,7 +92,7 @@ void write_rig(const RigProblem& problem, const std::vector<Slot>& slots, double
 // adds.
 class PoseResidual : public ceres::CostFunction {
  public:
-  PoseResidual(const RigProblem& problem, const Rig& start, const std::vector<Slot>& slots, int pose)
+  PoseResidual(const RigProblem& problem, const BoardRig& start, const std::vector<Slot>& slots, int pose)
       : problem_(problem), start_(start), slots_(slots), pose_(pose) {
     set_num_residuals(problem.row_columns() + 1);
     for (const Slot& slot : slots_)
@@ -101,7 +101,7 @@ class PoseResidual : public ceres::CostFunction {
   }
 
   bool Evaluate(double const* const* values, double* residuals, double** jacobians) const override {
-    Rig rig = start_;
+    BoardRig rig = start_;
     write_rig(problem_, slots_, values, rig);
     if (problem_.pose_columns() > 0) rig.camera_from_board[pose_] = rigid_of(values[slots_.size()]);
     const int n = problem_.row_columns();
@@ -150,12 +150,13 @@ class PoseResidual : public ceres::CostFunction {
   }
 
   const RigProblem& problem_;
-  const Rig& start_;
+  const BoardRig& start_;
   const std::vector<Slot> slots_;
   const int pose_;
 };
 
-void build(ceres::Problem& ceres_problem, const RigProblem& problem, const Rig& start, const Blocks& blocks) {
+void build(ceres::Problem& ceres_problem, const RigProblem& problem, const BoardRig& start,
+           const Blocks& blocks) {
   for (int k = 0; k < problem.pose_count(); ++k) {
     std::vector<double*> data;
     for (const Slot& slot : blocks.global) data.push_back(slot.data);
@@ -201,7 +202,7 @@ bool finish(const RigProblem& problem, Adjustment& result) {
 
 }  // namespace
 
-std::optional<Adjustment> adjust(const RigProblem& problem, const Rig& start, int max_iterations) {
+std::optional<Adjustment> adjust(const RigProblem& problem, const BoardRig& start, int max_iterations) {
   for (int k = 0; k < problem.pose_count(); ++k)
     if (!squared_residuals(problem, start, k)) return std::nullopt;
   Blocks blocks;

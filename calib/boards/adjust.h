@@ -10,7 +10,7 @@
 namespace laterna {
 
 struct Adjustment {
-  Rig rig;
+  BoardRig rig;
   double loss = 0;  ///< Σ ρ(s) at `rig`
   bool converged = false;
   int iterations = 0;
@@ -22,6 +22,6 @@ struct Adjustment {
 /// rounding. Ceres sees one residual block per pose that holds the triangular factor of the pose's rows (the
 /// same cost, gradient and normal equations), and eliminates the poses (Schur). None where the start has a
 /// point behind a device, or something is not finite.
-std::optional<Adjustment> adjust(const RigProblem& problem, const Rig& start, int max_iterations = 500);
+std::optional<Adjustment> adjust(const RigProblem& problem, const BoardRig& start, int max_iterations = 500);
 
 }  // namespace laterna

@@ -23,7 +23,7 @@ double angle_between(const glm::dvec3& a, const glm::dvec3& b) {
 }
 
 PoseDiagnosis diagnose_pose(const RigProblem& problem, const RigFit& fit, int pose) {
-  const Rig& rig = fit.adjustment.rig;
+  const BoardRig& rig = fit.adjustment.rig;
   const std::size_t devices = rig.devices.size();
   PoseDiagnosis d;
   d.label = fit.capture.pose_labels[pose];
@@ -44,7 +44,7 @@ PoseDiagnosis diagnose_pose(const RigProblem& problem, const RigFit& fit, int po
 
 // Axial depths of a device's sightings.
 std::vector<double> depths_of_sightings(const RigFit& fit, int device) {
-  const Rig& rig = fit.adjustment.rig;
+  const BoardRig& rig = fit.adjustment.rig;
   std::vector<double> depths;
   for (const Sighting& s : fit.capture.sightings) {
     if (s.device != device) continue;
@@ -152,7 +152,7 @@ std::vector<std::string> strongest_correlations(const RigFit& fit, const RigCova
 }
 
 // The size of each lens parameter that moves some sighting by as many pixels as the focal length has.
-void add_lens_units(const RigProblem& problem, const Rig& rig, std::vector<double>& unit) {
+void add_lens_units(const RigProblem& problem, const BoardRig& rig, std::vector<double>& unit) {
   std::vector<double> rows(2 * std::size_t(problem.row_columns() - 1));
   std::vector<double> most(unit.size(), 0.0);
   for (const Sighting& s : problem.sightings) {
@@ -174,7 +174,7 @@ std::vector<double> natural_units(const RigFit& fit) {
   const RigColumns& columns = problem.columns;
   std::vector<double> unit(columns.count, 1.0);
   double distance = 0;
-  const Rig& rig = fit.adjustment.rig;
+  const BoardRig& rig = fit.adjustment.rig;
   for (const Rigid& pose : rig.camera_from_board)
     distance += glm::length(apply(pose, {fit.capture.extent.center, 0.0})) / fit.capture.pose_count();
   for (std::size_t d = 0; d < rig.devices.size(); ++d) {
@@ -207,7 +207,7 @@ WeakestDirection weakest_direction(const RigFit& fit, const std::vector<double>&
 
 Diagnosis diagnose(const RigFit& fit, const RigCovariance& covariance, const HeldOut& held_out) {
   const RigProblem problem(fit.capture, fit.model);
-  const Rig& rig = fit.adjustment.rig;
+  const BoardRig& rig = fit.adjustment.rig;
   Diagnosis d;
   for (int k = 0; k < fit.capture.pose_count(); ++k) {
     d.poses.push_back(diagnose_pose(problem, fit, k));

@@ -42,7 +42,7 @@ bool is_flat(const BoardCapture& capture) {
 }
 
 // The generous model needs more poses than two; with fewer nothing is dropped.
-BoardCapture without_outliers(const BoardCapture& capture, const Rig& start, const BoardOptions& options,
+BoardCapture without_outliers(const BoardCapture& capture, const BoardRig& start, const BoardOptions& options,
                               BoardCalibration& result) {
   if (!(options.drop_beyond_sigmas > 0) || capture.pose_count() < 3) return capture;
   auto outliers = drop_outliers(capture, generous_model(capture), start, options.drop_beyond_sigmas);
@@ -178,6 +178,11 @@ double BoardCalibration::fit_rms_px() const {
   for (const Sighting& s : fit.capture.sightings)
     if (s.device > 0) sum += fit.rms_px[s.device] * fit.rms_px[s.device], ++count;
   return count > 0 ? std::sqrt(sum / count) : 0;
+}
+
+const HeldOut& BoardCalibration::held_out() const {
+  static const HeldOut none;
+  return ladder.rungs.empty() ? none : ladder.rungs[ladder.winner].held_out;
 }
 
 BoardCalibration calibrate_boards(const BoardCapture& capture, const BoardOptions& options) {

@@ -36,8 +36,8 @@ struct BoardCalibration {
   std::vector<double> dropped_residual_px;   ///< and |residual| under the model that found it
   std::vector<int> unused_poses;             ///< labels of poses that the camera sees fewer than 4 corners of
 
-  double fit_rms_px() const;  ///< of all devices but the camera, sqrt(mean(du² + dv²))
-  const HeldOut& held_out() const { return ladder.rungs[ladder.winner].held_out; }
+  double fit_rms_px() const;        ///< of all devices but the camera, sqrt(mean(du² + dv²))
+  const HeldOut& held_out() const;  ///< of the winning rung; without folds where there is none
 };
 
 /// The joint maximum-likelihood adjustment of everything (adjust.h) from starts of its own (rig_start.h),

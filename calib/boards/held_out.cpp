@@ -8,13 +8,13 @@ namespace laterna {
 
 namespace {
 
-Rig without_pose(Rig rig, int pose) {
+BoardRig without_pose(BoardRig rig, int pose) {
   rig.camera_from_board.erase(rig.camera_from_board.begin() + pose);
   return rig;
 }
 
 // The board's pose in a capture of one pose, from device 0 alone; everything else of the rig stays.
-std::optional<Rig> with_pose_from_camera(const BoardCapture& one, RigModel model, Rig rig) {
+std::optional<BoardRig> with_pose_from_camera(const BoardCapture& one, RigModel model, BoardRig rig) {
   for (DeviceModel& device : model.devices) device.held = true;
   model.bend = model.hold_poses = false;
   const auto adjusted = adjust({seen_by(one, 0), model}, rig);
@@ -23,7 +23,7 @@ std::optional<Rig> with_pose_from_camera(const BoardCapture& one, RigModel model
 }
 
 // False where a point lies behind a device.
-bool add_errors(const BoardCapture& one, const RigModel& model, const Rig& rig, HeldOutPose& fold) {
+bool add_errors(const BoardCapture& one, const RigModel& model, const BoardRig& rig, HeldOutPose& fold) {
   const RigProblem problem(one, model);
   double sum = 0;
   for (const Sighting& s : one.sightings) {
@@ -37,12 +37,12 @@ bool add_errors(const BoardCapture& one, const RigModel& model, const Rig& rig, 
   return true;
 }
 
-std::optional<HeldOutPose> hold_out(const BoardCapture& capture, const RigModel& model, const Rig& rig,
+std::optional<HeldOutPose> hold_out(const BoardCapture& capture, const RigModel& model, const BoardRig& rig,
                                     int pose, const Calibrator& calibrate) {
   const auto trained = calibrate(without_pose(capture, pose), without_pose(rig, pose));
   if (!trained) return std::nullopt;
   const BoardCapture one = with_poses(capture, {pose});
-  Rig start = *trained;
+  BoardRig start = *trained;
   start.camera_from_board = {rig.camera_from_board[pose]};
   const auto placed = with_pose_from_camera(one, model, start);
   HeldOutPose fold{pose, 0, 0, *trained};
@@ -52,7 +52,7 @@ std::optional<HeldOutPose> hold_out(const BoardCapture& capture, const RigModel&
 
 }  // namespace
 
-HeldOut hold_out_poses(const BoardCapture& capture, const RigModel& model, const Rig& rig,
+HeldOut hold_out_poses(const BoardCapture& capture, const RigModel& model, const BoardRig& rig,
                        const Calibrator& calibrate) {
   std::vector<std::optional<HeldOutPose>> folds(capture.pose_labels.size());
   if (folds.size() >= 2)
@@ -74,9 +74,9 @@ HeldOut hold_out_poses(const BoardCapture& capture, const RigModel& model, const
   return result;
 }
 
-HeldOut hold_out_poses(const BoardCapture& capture, const RigModel& model, const Rig& rig) {
+HeldOut hold_out_poses(const BoardCapture& capture, const RigModel& model, const BoardRig& rig) {
   return hold_out_poses(capture, model, rig,
-                        [&](const BoardCapture& others, const Rig& start) -> std::optional<Rig> {
+                        [&](const BoardCapture& others, const BoardRig& start) -> std::optional<BoardRig> {
                           const auto adjusted = adjust({others, model}, start);
                           if (!adjusted || !adjusted->converged) return std::nullopt;
                           return adjusted->rig;

@@ -13,7 +13,7 @@ struct HeldOutPose {
   int pose = 0;       ///< index into the whole capture
   double rms_px = 0;  ///< sqrt(mean(du² + dv²)) over its sightings by devices other than the camera
   std::size_t sightings = 0;
-  Rig rig;  ///< solved for without it
+  BoardRig rig;  ///< solved for without it
 };
 
 struct HeldOut {
@@ -23,16 +23,16 @@ struct HeldOut {
 };
 
 /// A calibration of a capture from a start; none where it fails.
-using Calibrator = std::function<std::optional<Rig>(const BoardCapture&, const Rig& start)>;
+using Calibrator = std::function<std::optional<BoardRig>(const BoardCapture&, const BoardRig& start)>;
 
 /// Leaves each pose out in turn: `calibrate` solves for the rig from the others (starting at `rig`); the
 /// board's pose comes from the camera's pixels alone with that rig's camera and bend; then the other devices'
 /// pixels are predicted. `model` names the lenses of the rigs. Folds run in parallel. A fold without
 /// sightings by other devices has rms 0.
-HeldOut hold_out_poses(const BoardCapture& capture, const RigModel& model, const Rig& rig,
+HeldOut hold_out_poses(const BoardCapture& capture, const RigModel& model, const BoardRig& rig,
                        const Calibrator& calibrate);
 
 /// The same with adjust() under `model` and the capture's sigmas.
-HeldOut hold_out_poses(const BoardCapture& capture, const RigModel& model, const Rig& rig);
+HeldOut hold_out_poses(const BoardCapture& capture, const RigModel& model, const BoardRig& rig);
 
 }  // namespace laterna

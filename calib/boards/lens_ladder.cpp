@@ -94,7 +94,7 @@ double geometric_mean_px(const HeldOut& held_out) {
 }
 
 // The focal length, principal point or distance that changed most, in shares of the focal length.
-std::string what_moved(const Rig& before, const Rig& after, const BoardCapture& capture) {
+std::string what_moved(const BoardRig& before, const BoardRig& after, const BoardCapture& capture) {
   constexpr std::array<const char*, 4> names = {"fx", "fy", "cx", "cy"};
   std::string text;
   double most = 0;
@@ -110,7 +110,7 @@ std::string what_moved(const Rig& before, const Rig& after, const BoardCapture& 
   return text;
 }
 
-void evaluate(Candidate& c, const BoardCapture& capture, const Rig& start, bool estimate_sigma,
+void evaluate(Candidate& c, const BoardCapture& capture, const BoardRig& start, bool estimate_sigma,
               const LadderOptions& options) {
   c.rung.terms = c.terms, c.rung.bend = c.bend, c.rung.added = c.added;
   c.fit = fit_rig(capture, model_of(c.terms, c.bend, options), start, estimate_sigma);
@@ -133,8 +133,8 @@ bool passes(const Candidate& c, const Candidate& current, const LadderOptions& o
          c.rung.typical_px < (1 - options.least_gain) * current.rung.typical_px;
 }
 
-Candidate first_rung(const BoardCapture& capture, const Rig& start, bool estimate_sigma, const Terms& terms,
-                     const LadderOptions& options) {
+Candidate first_rung(const BoardCapture& capture, const BoardRig& start, bool estimate_sigma,
+                     const Terms& terms, const LadderOptions& options) {
   Candidate first{terms, options.bend == LadderOptions::Bend::on, ""};
   evaluate(first, capture, start, estimate_sigma, options);
   if (!first.fit) {
@@ -164,7 +164,7 @@ double paired_gain_over_error(const HeldOut& before, const HeldOut& after) {
   return error > 0 ? mean / error : 0;
 }
 
-Ladder climb(const BoardCapture& capture, const Rig& start, bool estimate_sigma,
+Ladder climb(const BoardCapture& capture, const BoardRig& start, bool estimate_sigma,
              const LadderOptions& options) {
   Candidate current = first_rung(capture, start, estimate_sigma, Terms(capture.devices.size()), options);
   Ladder ladder;
@@ -193,8 +193,8 @@ Ladder climb(const BoardCapture& capture, const Rig& start, bool estimate_sigma,
   return ladder;
 }
 
-Ladder single_rung(const BoardCapture& capture, const Rig& start, bool estimate_sigma, const Terms& terms,
-                   const LadderOptions& options) {
+Ladder single_rung(const BoardCapture& capture, const BoardRig& start, bool estimate_sigma,
+                   const Terms& terms, const LadderOptions& options) {
   Candidate only = first_rung(capture, start, estimate_sigma, terms, options);
   return {{only.rung}, std::move(*only.fit), 0};
 }

@@ -54,12 +54,12 @@ double paired_gain_over_error(const HeldOut& before, const HeldOut& after);
 ///
 /// Fewer than three poses leave nothing to test: the first rung is the last. Throws Refusal where pinhole
 /// itself cannot be fitted.
-Ladder climb(const BoardCapture& capture, const Rig& start, bool estimate_sigma,
+Ladder climb(const BoardCapture& capture, const BoardRig& start, bool estimate_sigma,
              const LadderOptions& options = {});
 
 /// The one rung of a given model, as on the ladder; the bend is free only with Bend::on. Throws Refusal where
 /// it cannot be fitted.
-Ladder single_rung(const BoardCapture& capture, const Rig& start, bool estimate_sigma,
+Ladder single_rung(const BoardCapture& capture, const BoardRig& start, bool estimate_sigma,
                    const std::vector<std::vector<std::string>>& terms, const LadderOptions& options = {});
 
 }  // namespace laterna

@@ -137,9 +137,9 @@ std::vector<std::string> column_names(const RigModel& model, const BoardCapture&
   return names;
 }
 
-Rig moved(const Rig& rig, const RigColumns& columns, const std::vector<double>& global,
-          const std::vector<double>& poses) {
-  Rig result = rig;
+BoardRig moved(const BoardRig& rig, const RigColumns& columns, const std::vector<double>& global,
+               const std::vector<double>& poses) {
+  BoardRig result = rig;
   for (std::size_t d = 0; d < rig.devices.size(); ++d) {
     const RigColumns::Of& of = columns.devices[d];
     for (std::size_t i = 0; i < of.intrinsics.size(); ++i)
@@ -153,7 +153,7 @@ Rig moved(const Rig& rig, const RigColumns& columns, const std::vector<double>& 
   return result;
 }
 
-std::vector<double> global_step(const Rig& from, const Rig& to, const RigColumns& columns) {
+std::vector<double> global_step(const BoardRig& from, const BoardRig& to, const RigColumns& columns) {
   std::vector<double> step(columns.count, 0.0);
   for (std::size_t d = 0; d < from.devices.size(); ++d) {
     const RigColumns::Of& of = columns.devices[d];
@@ -170,7 +170,7 @@ std::vector<double> global_step(const Rig& from, const Rig& to, const RigColumns
   return step;
 }
 
-Rig fitted_to(Rig rig, const RigModel& model, const BoardCapture& capture) {
+BoardRig fitted_to(BoardRig rig, const RigModel& model, const BoardCapture& capture) {
   for (std::size_t d = 0; d < rig.devices.size(); ++d) {
     const DeviceModel& m = model.devices[d];
     std::vector<double>& k = rig.devices[d].parameters;
@@ -183,7 +183,7 @@ Rig fitted_to(Rig rig, const RigModel& model, const BoardCapture& capture) {
   return rig;
 }
 
-Device device_of(const Rig& rig, const RigModel& model, const BoardCapture& capture, int d) {
+Device device_of(const BoardRig& rig, const RigModel& model, const BoardCapture& capture, int d) {
   const std::vector<double>& k = rig.devices[d].parameters;
   Device device;
   device.name = capture.devices[d].name;

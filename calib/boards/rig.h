@@ -46,7 +46,7 @@ struct RigDevice {
   Rigid device_from_camera;
 };
 
-struct Rig {
+struct BoardRig {
   std::vector<RigDevice> devices;
   std::vector<Rigid> camera_from_board;  ///< one per pose
   /// Height of the board's middle over its edges, as if bent about y and about x: z + bend.x·(1 - x²) +
@@ -84,17 +84,17 @@ std::string lens_parameter_name(const std::string& lens_model, int index);
 
 /// Moves a rig: intrinsics and bend by addition, rotations R = exp([w]×)·R̂ in the target frame, translations
 /// by addition. `global` has columns.count entries, `poses` 6 per pose (may be empty).
-Rig moved(const Rig& rig, const RigColumns& columns, const std::vector<double>& global,
-          const std::vector<double>& poses);
+BoardRig moved(const BoardRig& rig, const RigColumns& columns, const std::vector<double>& global,
+               const std::vector<double>& poses);
 /// The inverse: the step that takes `from` to `to`.
-std::vector<double> global_step(const Rig& from, const Rig& to, const RigColumns& columns);
+std::vector<double> global_step(const BoardRig& from, const BoardRig& to, const RigColumns& columns);
 
 /// Fits a rig's intrinsics to a model: lens parameters added as 0 or cut, held ones kept, fx and fy made one,
 /// the centre put into the middle of the image.
-Rig fitted_to(Rig rig, const RigModel& model, const BoardCapture& capture);
+BoardRig fitted_to(BoardRig rig, const RigModel& model, const BoardCapture& capture);
 
 /// Device d of the rig as the rest of Laterna knows it; device_from_world is device_from_camera, lengths in
 /// the capture's unit.
-Device device_of(const Rig& rig, const RigModel& model, const BoardCapture& capture, int d);
+Device device_of(const BoardRig& rig, const RigModel& model, const BoardCapture& capture, int d);
 
 }  // namespace laterna

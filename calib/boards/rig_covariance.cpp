@@ -70,8 +70,8 @@ std::vector<double> full_covariance(const RigCovariance& c) {
   return values_of(full);
 }
 
-std::optional<glm::dvec3> pixel_covariance(const RigProblem& problem, const Rig& rig, const RigCovariance& c,
-                                           int device, const glm::dvec3& x_device) {
+std::optional<glm::dvec3> pixel_covariance(const RigProblem& problem, const BoardRig& rig,
+                                           const RigCovariance& c, int device, const glm::dvec3& x_device) {
   const RigDevice& d = rig.devices[device];
   const RigColumns::Of& of = problem.columns.devices[device];
   const int k = problem.lenses[device].parameter_count();
@@ -102,7 +102,7 @@ std::optional<glm::dvec3> pixel_covariance(const RigProblem& problem, const Rig&
   return glm::dvec3(sum(0, 0), sum(0, 1), sum(1, 1));
 }
 
-std::optional<glm::dvec2> carried_pixel(const LensGradient& lens, const Rig& from, const Rig& to,
+std::optional<glm::dvec2> carried_pixel(const LensGradient& lens, const BoardRig& from, const BoardRig& to,
                                         const std::vector<int>& poses, int device,
                                         const glm::dvec3& x_device) {
   const glm::dvec3 x_camera = apply(inverse(from.devices[device].device_from_camera), x_device);

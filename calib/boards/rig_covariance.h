@@ -34,13 +34,13 @@ std::vector<double> full_covariance(const RigCovariance& covariance);
 /// way): x_device is carried to each board pose by the rig, and comes back through the perturbed rig as the
 /// mean over the poses. So it holds what intrinsics, places and board poses do together, at the point's place
 /// and range. (uu, uv, vv) in px²; none where the point lies behind.
-std::optional<glm::dvec3> pixel_covariance(const RigProblem& problem, const Rig& rig,
+std::optional<glm::dvec3> pixel_covariance(const RigProblem& problem, const BoardRig& rig,
                                            const RigCovariance& covariance, int device,
                                            const glm::dvec3& x_device);
 
 /// The same map without linearising: where device d of `to` puts the point that device d of `from` has at
 /// x_device. `poses[i]` is the index in `from` of pose i of `to`. None where it lies behind.
-std::optional<glm::dvec2> carried_pixel(const LensGradient& lens, const Rig& from, const Rig& to,
+std::optional<glm::dvec2> carried_pixel(const LensGradient& lens, const BoardRig& from, const BoardRig& to,
                                         const std::vector<int>& poses, int device,
                                         const glm::dvec3& x_device);
 

@@ -9,7 +9,7 @@ namespace laterna {
 namespace {
 
 // |residual|² of each sighting of a capture, in its order, in px².
-std::vector<double> squared_px(const BoardCapture& capture, const RigModel& model, const Rig& rig) {
+std::vector<double> squared_px(const BoardCapture& capture, const RigModel& model, const BoardRig& rig) {
   const RigProblem problem(capture, model);
   std::vector<double> squared;
   for (const Sighting& s : capture.sightings) {
@@ -76,10 +76,10 @@ std::vector<double> median_sigmas(const BoardCapture& capture, const std::vector
 
 }  // namespace
 
-std::optional<RigFit> fit_rig(const BoardCapture& capture, const RigModel& model, const Rig& start,
+std::optional<RigFit> fit_rig(const BoardCapture& capture, const RigModel& model, const BoardRig& start,
                               bool estimate_sigma) {
   RigFit fit{model, capture, {}, {}, {}};
-  Rig rig = fitted_to(start, model, capture);
+  BoardRig rig = fitted_to(start, model, capture);
   for (int round = 0; round < (estimate_sigma ? 3 : 1); ++round) {
     auto adjusted = adjust({fit.capture, model}, rig);
     if (!adjusted || !adjusted->converged) return std::nullopt;
@@ -91,10 +91,10 @@ std::optional<RigFit> fit_rig(const BoardCapture& capture, const RigModel& model
   return fit;
 }
 
-std::optional<Outliers> drop_outliers(const BoardCapture& capture, const RigModel& model, const Rig& start,
-                                      double sigmas, double least_sigma_px) {
+std::optional<Outliers> drop_outliers(const BoardCapture& capture, const RigModel& model,
+                                      const BoardRig& start, double sigmas, double least_sigma_px) {
   Outliers result{capture, {}, {}};
-  Rig rig = fitted_to(start, model, capture);
+  BoardRig rig = fitted_to(start, model, capture);
   for (int round = 0; round < 20; ++round) {
     auto adjusted = adjust({result.kept, model, {RobustLoss::Kind::cauchy, 3}}, rig);
     if (!adjusted) return std::nullopt;

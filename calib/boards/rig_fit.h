@@ -21,7 +21,7 @@ struct RigFit {
 /// counts the device's own free parameters, and for device 0 the poses and the bend too. All devices share
 /// the pooled sigma unless theirs differ by more than a factor of two: residuals are partly the model's
 /// error, which is no reason for weights. None where a point lies behind, or no convergence.
-std::optional<RigFit> fit_rig(const BoardCapture& capture, const RigModel& model, const Rig& start,
+std::optional<RigFit> fit_rig(const BoardCapture& capture, const RigModel& model, const BoardRig& start,
                               bool estimate_sigma);
 
 struct Outliers {
@@ -33,7 +33,7 @@ struct Outliers {
 /// Drops what lies beyond `sigmas` under a Cauchy loss: |residual| > sigmas·σ of its device, with σ² =
 /// median(du² + dv²)/(2·ln 2), at least `least_sigma_px`; fits again and looks again until nothing more is
 /// dropped. None where a fit fails.
-std::optional<Outliers> drop_outliers(const BoardCapture& capture, const RigModel& model, const Rig& start,
-                                      double sigmas, double least_sigma_px = 1e-3);
+std::optional<Outliers> drop_outliers(const BoardCapture& capture, const RigModel& model,
+                                      const BoardRig& start, double sigmas, double least_sigma_px = 1e-3);
 
 }  // namespace laterna

@@ -48,7 +48,8 @@ void add_pose_row(double* row, const glm::dvec3& rotated, const glm::dvec3& g) {
   for (int i = 0; i < 3; ++i) row[i] += turn[i], row[3 + i] += g[i];
 }
 
-bool predict(const RigProblem& problem, const Rig& rig, const Sighting& s, double pixel[2], double* rows) {
+bool predict(const RigProblem& problem, const BoardRig& rig, const Sighting& s, double pixel[2],
+             double* rows) {
   const RigDevice& device = rig.devices[s.device];
   const RigColumns::Of& of = problem.columns.devices[s.device];
   const Rigid& board = rig.camera_from_board[s.pose];
@@ -81,7 +82,8 @@ bool predict(const RigProblem& problem, const Rig& rig, const Sighting& s, doubl
   return true;
 }
 
-std::optional<std::vector<double>> squared_residuals(const RigProblem& problem, const Rig& rig, int pose) {
+std::optional<std::vector<double>> squared_residuals(const RigProblem& problem, const BoardRig& rig,
+                                                     int pose) {
   std::vector<double> s;
   double pixel[2];
   for (std::size_t i = problem.pose_begin[pose]; i < problem.pose_begin[pose + 1]; ++i) {
@@ -93,7 +95,7 @@ std::optional<std::vector<double>> squared_residuals(const RigProblem& problem, 
   return s;
 }
 
-std::optional<std::vector<double>> pose_factor(const RigProblem& problem, const Rig& rig, int pose) {
+std::optional<std::vector<double>> pose_factor(const RigProblem& problem, const BoardRig& rig, int pose) {
   const std::size_t first = problem.pose_begin[pose];
   StackedRows stacked;
   stacked.items = problem.pose_begin[pose + 1] - first;

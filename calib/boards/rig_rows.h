@@ -39,15 +39,16 @@ void add_pose_row(double* row, const glm::dvec3& rotated, const glm::dvec3& g);
 
 /// The pixel of one sighting under a rig and, unless null, its two rows of derivatives by the pose's columns
 /// and the global ones (row-major 2×(row_columns() - 1)). False where the point lies behind the device.
-bool predict(const RigProblem& problem, const Rig& rig, const Sighting& sighting, double pixel[2],
+bool predict(const RigProblem& problem, const BoardRig& rig, const Sighting& sighting, double pixel[2],
              double* rows);
 
 /// s = (du² + dv²)/σ² of each of a pose's sightings. None where a point lies behind its device.
-std::optional<std::vector<double>> squared_residuals(const RigProblem& problem, const Rig& rig, int pose);
+std::optional<std::vector<double>> squared_residuals(const RigProblem& problem, const BoardRig& rig,
+                                                     int pose);
 
 /// The triangular factor (stacked_qr.h) of a pose's rows [J_pose J_global r]·√ρ'(s)/σ, r = predicted -
 /// measured. Its lower right corner, below the pose's columns, is the factor with the pose eliminated
 /// (Schur). None where a point lies behind its device.
-std::optional<std::vector<double>> pose_factor(const RigProblem& problem, const Rig& rig, int pose);
+std::optional<std::vector<double>> pose_factor(const RigProblem& problem, const BoardRig& rig, int pose);
 
 }  // namespace laterna

@@ -74,7 +74,7 @@ RigModel camera_alone(const BoardCapture& capture) {
 // The camera and all poses from one focal length.
 std::optional<Adjustment> camera_from_focal(const BoardCapture& capture, double f) {
   const glm::ivec2 size = capture.devices[0].size;
-  Rig rig;
+  BoardRig rig;
   rig.devices.resize(capture.devices.size());
   for (RigDevice& device : rig.devices) device.parameters = {f, f, (size.x - 1) / 2.0, (size.y - 1) / 2.0};
   for (int k = 0; k < capture.pose_count(); ++k) {
@@ -87,7 +87,7 @@ std::optional<Adjustment> camera_from_focal(const BoardCapture& capture, double 
   return adjust({camera, camera_alone(capture), {RobustLoss::Kind::cauchy, 3}}, rig, 100);
 }
 
-std::optional<Rig> start_camera(const BoardCapture& capture) {
+std::optional<BoardRig> start_camera(const BoardCapture& capture) {
   std::optional<Adjustment> best;
   const auto consider = [&](double f) {
     auto tried = camera_from_focal(capture, f);
@@ -105,7 +105,7 @@ std::optional<Rig> start_camera(const BoardCapture& capture) {
 }
 
 // A pinhole device from board points in the camera's frame; the reason where there is none.
-std::string start_device(const BoardCapture& capture, int d, Rig& rig) {
+std::string start_device(const BoardCapture& capture, int d, BoardRig& rig) {
   Correspondences c;
   for (const Sighting& s : capture.sightings) {
     if (s.device != d) continue;
@@ -152,7 +152,7 @@ std::optional<Rigid> board_pose(const BoardCapture& capture, int pose, const std
 
 RigStart start_rig(const BoardCapture& capture) {
   if (capture.pose_count() == 0) return {{}, "no pose: the capture has no sighting"};
-  std::optional<Rig> rig = start_camera(capture);
+  std::optional<BoardRig> rig = start_camera(capture);
   if (!rig)
     return {{},
             fmt::format("{}: no focal length gives every board a pose in front of it (is a picture mirrored, "

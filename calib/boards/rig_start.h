@@ -9,8 +9,8 @@
 namespace laterna {
 
 struct RigStart {
-  std::optional<Rig> rig;  ///< pinhole devices
-  std::string refusal;     ///< one sentence; empty where there is a rig
+  std::optional<BoardRig> rig;  ///< pinhole devices
+  std::string refusal;          ///< one sentence; empty where there is a rig
 };
 
 /// Device 0: one focal length and a centred principal point, from the boards' homographies (Zhang 2000, as

@@ -4,7 +4,8 @@
 
 namespace laterna {
 
-std::optional<Rig> adjust_stepwise(const BoardCapture& capture, const RigModel& model, const Rig& start) {
+std::optional<BoardRig> adjust_stepwise(const BoardCapture& capture, const RigModel& model,
+                                        const BoardRig& start) {
   RigModel camera = model, others = model;
   for (std::size_t d = 0; d < model.devices.size(); ++d) (d == 0 ? others : camera).devices[d].held = true;
   others.hold_poses = true;

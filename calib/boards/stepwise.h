@@ -9,6 +9,7 @@ namespace laterna {
 
 /// Adjusts device 0, the poses and the bend to the sightings of device 0 alone; then every other device, with
 /// all of that held. Errors of the camera's poses go into the projectors. None where either fails.
-std::optional<Rig> adjust_stepwise(const BoardCapture& capture, const RigModel& model, const Rig& start);
+std::optional<BoardRig> adjust_stepwise(const BoardCapture& capture, const RigModel& model,
+                                        const BoardRig& start);
 
 }  // namespace laterna

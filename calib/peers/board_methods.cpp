@@ -12,19 +12,19 @@ namespace laterna {
 
 namespace {
 
-Rig start_of(const BoardCapture& capture, const RigModel& model) {
+BoardRig start_of(const BoardCapture& capture, const RigModel& model) {
   const RigStart start = start_rig(capture);
   if (!start.rig) throw Refusal(start.refusal);
   return fitted_to(*start.rig, model, capture);
 }
 
-Rig solve_joint(const BoardCapture& capture, const RigModel& model) {
+BoardRig solve_joint(const BoardCapture& capture, const RigModel& model) {
   const auto adjusted = adjust({capture, model}, start_of(capture, model));
   if (!adjusted || !adjusted->converged) throw Refusal("the solver does not converge");
   return adjusted->rig;
 }
 
-Rig solve_stepwise(const BoardCapture& capture, const RigModel& model) {
+BoardRig solve_stepwise(const BoardCapture& capture, const RigModel& model) {
   const auto rig = adjust_stepwise(capture, model, start_of(capture, model));
   if (!rig) throw Refusal("the solver does not converge");
   return *rig;
@@ -36,7 +36,7 @@ constexpr std::array<BoardMethod, 5> methods = {{{"joint", solve_joint},
                                                  {"opencv-joint", solve_opencv_joint},
                                                  {"mrcal", solve_mrcal}}};
 
-std::vector<double> fit_rms(const BoardCapture& capture, const RigModel& model, const Rig& rig) {
+std::vector<double> fit_rms(const BoardCapture& capture, const RigModel& model, const BoardRig& rig) {
   const RigProblem problem(capture, model);
   std::vector<double> sum(capture.devices.size(), 0.0), count(capture.devices.size(), 0.0);
   for (const Sighting& s : problem.sightings) {
@@ -61,14 +61,15 @@ MethodResult run(const BoardMethod& method, const BoardCapture& capture, const R
   }
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   result.fit_rms_px = fit_rms(capture, model, *result.rig);
-  result.held_out = hold_out_poses(capture, model, *result.rig,
-                                   [&](const BoardCapture& others, const Rig&) -> std::optional<Rig> {
-                                     try {
-                                       return method.solve(others, model);
-                                     } catch (const Refusal&) {
-                                       return std::nullopt;
-                                     }
-                                   });
+  result.held_out =
+      hold_out_poses(capture, model, *result.rig,
+                     [&](const BoardCapture& others, const BoardRig&) -> std::optional<BoardRig> {
+                       try {
+                         return method.solve(others, model);
+                       } catch (const Refusal&) {
+                         return std::nullopt;
+                       }
+                     });
   return result;
 }
 

@@ -14,7 +14,7 @@ namespace laterna {
 /// reason, where the method cannot take this capture or this model, or fails.
 struct BoardMethod {
   const char* name;
-  Rig (*solve)(const BoardCapture& capture, const RigModel& model);
+  BoardRig (*solve)(const BoardCapture& capture, const RigModel& model);
 };
 
 /// joint: start_rig() and adjust(). stepwise: start_rig() and adjust_stepwise(). opencv-stepwise:
@@ -26,7 +26,7 @@ std::span<const BoardMethod> board_methods();
 /// What a method makes of a capture.
 struct MethodResult {
   std::string name;
-  std::optional<Rig> rig;
+  std::optional<BoardRig> rig;
   std::string failure;             ///< the reason where there is no rig
   std::vector<double> fit_rms_px;  ///< of each device
   HeldOut held_out;                ///< the method itself solves every fold, from nothing
@@ -37,8 +37,8 @@ struct MethodResult {
 std::vector<MethodResult> compare_board_methods(const BoardCapture& capture, const RigModel& model);
 
 /// The OpenCV and mrcal entries of the table.
-Rig solve_opencv_stepwise(const BoardCapture& capture, const RigModel& model);
-Rig solve_opencv_joint(const BoardCapture& capture, const RigModel& model);
-Rig solve_mrcal(const BoardCapture& capture, const RigModel& model);
+BoardRig solve_opencv_stepwise(const BoardCapture& capture, const RigModel& model);
+BoardRig solve_opencv_joint(const BoardCapture& capture, const RigModel& model);
+BoardRig solve_mrcal(const BoardCapture& capture, const RigModel& model);
 
 }  // namespace laterna

@@ -92,12 +92,12 @@ Observations observations_of(const BoardCapture& capture, const Grid& grid) {
 
 }  // namespace
 
-Rig solve_mrcal(const BoardCapture& capture, const RigModel& model) {
+BoardRig solve_mrcal(const BoardCapture& capture, const RigModel& model) {
   const mrcal_lensmodel_t lensmodel = model_of(model);
   const Grid grid = grid_of(capture);
   const RigStart start = start_rig(capture);
   if (!start.rig) throw Refusal(start.refusal);
-  Rig rig = fitted_to(*start.rig, model, capture);
+  BoardRig rig = fitted_to(*start.rig, model, capture);
 
   const int devices = int(rig.devices.size()), poses = capture.pose_count();
   std::vector<double> intrinsics;

@@ -99,14 +99,14 @@ Alone calibrate_alone(const BoardCapture& capture, const RigModel& model, int de
 }
 
 // OpenCV 4.6 keeps the poses of its joint solve to itself: the best ones for its devices.
-Rig with_poses_of(const BoardCapture& capture, RigModel model, const Rig& rig) {
+BoardRig with_poses_of(const BoardCapture& capture, RigModel model, const BoardRig& rig) {
   for (DeviceModel& device : model.devices) device.held = true;
   const auto adjusted = adjust({capture, model}, rig);
   if (!adjusted) throw Refusal("OpenCV's rig has points behind a device");
   return adjusted->rig;
 }
 
-Rig solve(const BoardCapture& capture, const RigModel& model, bool joint) {
+BoardRig solve(const BoardCapture& capture, const RigModel& model, bool joint) {
   check(capture, model);
   if (joint && flags_of(model.devices[0]) != flags_of(model.devices[1]))
     throw Refusal("OpenCV's joint solve takes one lens model for both devices");
@@ -119,7 +119,7 @@ Rig solve(const BoardCapture& capture, const RigModel& model, bool joint) {
   cv::stereoCalibrate(both.board, both.pixels[0], both.pixels[1], camera.k, camera.lens, projector.k,
                       projector.lens, {size.x, size.y}, rotation, translation, essential, fundamental, flags,
                       until_converged);
-  Rig rig;
+  BoardRig rig;
   rig.devices = {{parameters_of(camera.k, camera.lens, model.devices[0].lens_free.size()), {}},
                  {parameters_of(projector.k, projector.lens, model.devices[1].lens_free.size()),
                   rigid_of(rotation, translation)}};
@@ -128,7 +128,7 @@ Rig solve(const BoardCapture& capture, const RigModel& model, bool joint) {
   return joint ? with_poses_of(capture, model, rig) : rig;
 }
 
-Rig solve_or_refuse(const BoardCapture& capture, const RigModel& model, bool joint) {
+BoardRig solve_or_refuse(const BoardCapture& capture, const RigModel& model, bool joint) {
   try {
     return solve(capture, model, joint);
   } catch (const cv::Exception& error) {
@@ -138,11 +138,11 @@ Rig solve_or_refuse(const BoardCapture& capture, const RigModel& model, bool joi
 
 }  // namespace
 
-Rig solve_opencv_stepwise(const BoardCapture& capture, const RigModel& model) {
+BoardRig solve_opencv_stepwise(const BoardCapture& capture, const RigModel& model) {
   return solve_or_refuse(capture, model, false);
 }
 
-Rig solve_opencv_joint(const BoardCapture& capture, const RigModel& model) {
+BoardRig solve_opencv_joint(const BoardCapture& capture, const RigModel& model) {
   return solve_or_refuse(capture, model, true);
 }
 

@@ -185,6 +185,27 @@ TEST(Command, PatternsForARealProjector) {
   EXPECT_EQ(listing(scratch.path()), "p ");
 }
 
+TEST(Command, EveryFamilyIsShownAndReadBack) {
+  const ScratchFolder scratch;
+  for (const char* words : {"--kind gray", "--kind xor_gray --xor-stripe-px 4", "--kind gray_phase --steps 5",
+                            "--kind phase --pitch-px 40", "--kind multi_frequency --pitches-px 17,21.5,26",
+                            "--kind micro_phase --pitch-px 20"}) {
+    const std::string folder = "p" + std::to_string(std::string(words).size());
+    ASSERT_EQ(laterna("patterns --size 160x100 -o " + folder + " " + words, scratch.path()).exit_code, 0)
+        << words;
+    const auto run =
+        laterna("decode " + folder + " --projector-size 160x100 --json " + words, scratch.path());
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    const json sequence = json::parse(run.out).at("sequences").at(0);
+    // A crest at full scale leaves three of four steps; micro phase shifting has one picture to lose.
+    EXPECT_GT(sequence.at("valid_percent"), 98) << words;
+    EXPECT_EQ(sequence.at("orientation"), "upright") << words;
+  }
+  EXPECT_EQ(laterna("patterns --size 64x48 -o q --kind phase --steps 2", scratch.path()).exit_code, 2);
+  EXPECT_EQ(laterna("patterns --size 64x48 -o q --kind phases", scratch.path()).exit_code, 2);
+  EXPECT_EQ(laterna("decode p11 --projector-size 160x100 --kind phase", scratch.path()).exit_code, 2);
+}
+
 TEST(Command, RefusalsHaveTheirOwnExitCode) {
   const ScratchFolder scratch;
   std::string plane = small;

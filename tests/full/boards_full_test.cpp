@@ -55,7 +55,7 @@ TEST(BoardsFull, JointForecastsBetterThanStepwiseInTheMedian) {
     const BoardCapture noisy = testing::with_noise(t.capture, random);
     const HeldOut joint = hold_out_poses(noisy, t.model, t.rig);
     const HeldOut stepwise =
-        hold_out_poses(noisy, t.model, t.rig, [&](const BoardCapture& others, const Rig& start) {
+        hold_out_poses(noisy, t.model, t.rig, [&](const BoardCapture& others, const BoardRig& start) {
           return adjust_stepwise(others, t.model, start);
         });
     if (joint.failed.empty() && stepwise.failed.empty()) ratios.push_back(joint.rms_px / stepwise.rms_px);

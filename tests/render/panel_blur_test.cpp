@@ -125,6 +125,29 @@ TEST(PanelBlur, EntriesThatMeetBecomeOne) {
   }
 }
 
+TEST(PanelBlur, EntriesThatNearlyCoincideAreFoldedIntoOneDisc) {
+  std::vector<LightEntry> rays;
+  // The widest that is folded: rms √(2·0.39²·15/12) = 0.617 px of 20/32 = 0.625.
+  for (int i = 0; i < 16; ++i) rays.push_back({80.3 + i % 4 * 0.39, 41.8 + i / 4 * 0.39, 1, 20});
+  PanelBlur airy = plain;
+  airy.discs = {{0.5, 0.7}, {1.0, 0.3}};
+  const std::vector<LightEntry> taps = spread(rays, airy);
+  EXPECT_NEAR(total(taps), 16, 1e-12);  // roundings
+  // Along each axis the rays' own spread, 0.39²·(4² - 1)/12, and the disc's, with the point spread's.
+  const double expected = 0.1901 + (400 + 0.7 * 0.25 + 0.3) / 16 + 1.0 / 12;
+  EXPECT_NEAR(moment2(taps, {80.885, 42.385}).x, expected, 0.02);
+  std::vector<double> difference(200 * 100, 0);
+  const auto add = [&](const std::vector<LightEntry>& entries, double sign) {
+    for (const LightEntry& e : entries) difference[int(e.v_px) * 200 + int(e.u_px)] += sign * e.weight / 16;
+  };
+  add(taps, 1);
+  for (const LightEntry& ray : rays) add(spread({ray}, plain), -1);
+  double sum = 0;
+  for (const double d : difference) sum += std::abs(d);
+  EXPECT_LT(sum / 2, 0.025);  // what left its pixel: as the header says
+  EXPECT_GT(sum, 0.002);      // they were folded
+}
+
 TEST(PanelBlur, WideDiscsInCellsFavourNoStripes) {
   const PanelBlur wide{{1000, 1000}};
   const double diameter = 200;  // 7×7 pixels a cell

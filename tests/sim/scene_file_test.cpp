@@ -192,7 +192,9 @@ TEST(SceneFile, WrongTypesNameWhatWasFoundAndExpected) {
   EXPECT_EQ(error_of("patterns = \"gray\"\n"),
             "scene.toml:1: patterns at the top level is the string \"gray\", expected a table");
   EXPECT_EQ(error_of("[patterns]\nkind = \"grey\"\n"),
-            "scene.toml:2: kind in [patterns] is the string \"grey\", expected one of \"gray\", \"slide\"");
+            "scene.toml:2: kind in [patterns] is the string \"grey\", expected one of \"gray\", \"slide\", "
+            "\"gray_phase\", \"phase\", \"multi_frequency\", \"micro_phase\", \"xor_gray\", \"chessboard\", "
+            "\"charuco\", \"pictures\"");
 }
 
 TEST(SceneFile, NumbersOutOfRangeOrNotFinite) {

@@ -23,7 +23,7 @@ testing::BoardTruth usual(std::mt19937_64& random) {
   return testing::board_truth(scene, random);
 }
 
-Rig disturbed(const testing::BoardTruth& t) {
+BoardRig disturbed(const testing::BoardTruth& t) {
   const RigColumns columns = columns_of(t.model);
   std::vector<double> step(columns.count, 0.01), poses(6 * t.rig.camera_from_board.size(), 0.01);
   for (const RigColumns::Of& of : columns.devices)
@@ -33,7 +33,7 @@ Rig disturbed(const testing::BoardTruth& t) {
 }
 
 // Largest difference of a pixel over all sightings.
-double largest_difference(const RigProblem& problem, const Rig& a, const Rig& b) {
+double largest_difference(const RigProblem& problem, const BoardRig& a, const BoardRig& b) {
   double most = 0, p[2], q[2];
   for (const Sighting& s : problem.sightings) {
     EXPECT_TRUE(predict(problem, a, s, p, nullptr) && predict(problem, b, s, q, nullptr));
@@ -88,7 +88,7 @@ TEST(Adjust, RestrictedLensesStayRestricted) {
   auto random = testing::generator();
   auto t = usual(random);
   t.model.devices[1].one_focal_length = t.model.devices[1].fixed_center = true;
-  const Rig start = fitted_to(t.rig, t.model, t.capture);
+  const BoardRig start = fitted_to(t.rig, t.model, t.capture);
   const auto a = adjust({testing::with_noise(t.capture, random), t.model}, start);
   ASSERT_TRUE(a);
   const auto& k = a->rig.devices[1].parameters;

@@ -15,7 +15,7 @@ namespace laterna::testing {
 
 struct BoardTrials {
   std::vector<std::vector<double>> errors;  ///< global steps from truth to estimate
-  std::vector<Rig> rigs;
+  std::vector<BoardRig> rigs;
 };
 
 /// `count` adjustments of a true rig's sightings under noise.
@@ -62,7 +62,7 @@ inline void expect_sigmas(const BoardTruth& t, const BoardTrials& trials, double
       const auto predicted = pixel_covariance(problem, t.rig, *c, 1, x);
       ASSERT_TRUE(here && predicted);
       double sum = 0;
-      for (const Rig& rig : trials.rigs) {
+      for (const BoardRig& rig : trials.rigs) {
         const auto there = carried_pixel(problem.lenses[1], t.rig, rig, poses, 1, x);
         ASSERT_TRUE(there);
         sum += glm::dot(*there - *here, *there - *here);

@@ -29,8 +29,9 @@ TEST(HeldOut, TheTruthForecastsToTheNoise) {
   scene.projector_sigma_px = 0.2;
   const auto t = testing::board_truth(scene, random);
   const BoardCapture noisy = testing::with_noise(t.capture, random);
-  const HeldOut h = hold_out_poses(
-      noisy, t.model, t.rig, [](const BoardCapture&, const Rig& start) { return std::optional<Rig>(start); });
+  const HeldOut h = hold_out_poses(noisy, t.model, t.rig, [](const BoardCapture&, const BoardRig& start) {
+    return std::optional<BoardRig>(start);
+  });
   EXPECT_NEAR(h.rms_px / (0.2 * std::sqrt(2.0)), 1,
               0.12);  // rms of some 700 deviates: 3 % each way, four sigma
   double sum = 0, count = 0;
@@ -43,10 +44,10 @@ TEST(HeldOut, TheFoldNeverSeesItsPose) {
   auto random = testing::generator();
   const auto t = testing::board_truth({}, random);
   const HeldOut h =
-      hold_out_poses(t.capture, t.model, t.rig, [&](const BoardCapture& others, const Rig& start) {
+      hold_out_poses(t.capture, t.model, t.rig, [&](const BoardCapture& others, const BoardRig& start) {
         EXPECT_EQ(others.pose_count(), 5);
         EXPECT_EQ(start.camera_from_board.size(), 5u);
-        return std::optional<Rig>(start);
+        return std::optional<BoardRig>(start);
       });
   EXPECT_EQ(h.folds.size(), 6u);
 }
@@ -54,11 +55,12 @@ TEST(HeldOut, TheFoldNeverSeesItsPose) {
 TEST(HeldOut, FailedFoldsAreNamed) {
   auto random = testing::generator();
   const auto t = testing::board_truth({}, random);
-  const HeldOut h = hold_out_poses(t.capture, t.model, t.rig,
-                                   [](const BoardCapture& others, const Rig& start) -> std::optional<Rig> {
-                                     if (others.pose_labels[0] == 1) return std::nullopt;  // without pose 0
-                                     return start;
-                                   });
+  const HeldOut h =
+      hold_out_poses(t.capture, t.model, t.rig,
+                     [](const BoardCapture& others, const BoardRig& start) -> std::optional<BoardRig> {
+                       if (others.pose_labels[0] == 1) return std::nullopt;  // without pose 0
+                       return start;
+                     });
   EXPECT_EQ(h.failed, std::vector<int>{0});
   EXPECT_EQ(h.folds.size(), 5u);
 }
@@ -75,7 +77,7 @@ TEST(HeldOut, JointForecastsBetterThanStepwise) {
     const BoardCapture noisy = testing::with_noise(t.capture, random);
     const HeldOut joint = hold_out_poses(noisy, t.model, t.rig);
     const HeldOut stepwise =
-        hold_out_poses(noisy, t.model, t.rig, [&](const BoardCapture& others, const Rig& start) {
+        hold_out_poses(noisy, t.model, t.rig, [&](const BoardCapture& others, const BoardRig& start) {
           return adjust_stepwise(others, t.model, start);
         });
     if (joint.failed.empty() && stepwise.failed.empty()) ratios.push_back(joint.rms_px / stepwise.rms_px);
@@ -94,7 +96,7 @@ TEST(HeldOut, TheBendModelRepairsABentBoard) {
   const BoardCapture noisy = testing::with_noise(t.capture, random);
   RigModel bent = t.model;
   bent.bend = true;
-  Rig flat_start = t.rig;
+  BoardRig flat_start = t.rig;
   flat_start.bend = glm::dvec2(0.0);
   const auto fit = fit_rig(noisy, bent, flat_start, false);
   ASSERT_TRUE(fit);

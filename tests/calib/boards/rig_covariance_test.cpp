@@ -21,7 +21,7 @@ testing::BoardScene usual_scene() {
 }
 
 // All rows at once, no elimination: the inverse of the dense normal matrix.
-Matrix dense_covariance(const RigProblem& problem, const Rig& rig) {
+Matrix dense_covariance(const RigProblem& problem, const BoardRig& rig) {
   const int n = problem.row_columns() - 1, g = problem.columns.count;
   Matrix normal = Matrix::Zero(g + 6 * problem.pose_count(), g + 6 * problem.pose_count());
   for (const Sighting& s : problem.sightings) {
@@ -73,7 +73,7 @@ TEST(RigCovariance, PredictedPixelsAreTheDerivativeOfCarriedOnes) {
     for (int side = 0; side < 2; ++side) {
       std::vector<double> step(n, 0.0);
       step[i] = side ? h : -h;
-      const Rig there =
+      const BoardRig there =
           moved(t.rig, problem.columns, {step.begin(), step.begin() + g}, {step.begin() + g, step.end()});
       at[side] = *carried_pixel(problem.lenses[1], t.rig, there, poses, 1, x);
     }
@@ -110,7 +110,7 @@ TEST(RigCovariance, OnePoseDoesNotDetermineAPinhole) {
   auto random = testing::generator();
   const auto t = testing::board_truth({}, random);
   const BoardCapture one = with_poses(t.capture, {0});
-  Rig rig = t.rig;
+  BoardRig rig = t.rig;
   rig.camera_from_board.resize(1);
   const RigProblem problem(one, t.model);
   Adjustment a;

@@ -47,7 +47,7 @@ std::array<Jet, 2> project_dual(const std::vector<Jet>& k, const Vector3& p) {
   return {k[0] * u + k[2], k[1] * v + k[3]};
 }
 
-std::array<Jet, 2> predict_dual(const RigProblem& problem, const Rig& rig, const Sighting& s) {
+std::array<Jet, 2> predict_dual(const RigProblem& problem, const BoardRig& rig, const Sighting& s) {
   const int skip = problem.pose_columns();
   const auto column = [&](int c) { return c < 0 ? -1 : skip + c; };
   const glm::dvec2 shape = bend_shape(s.x_board, problem.extent);

@@ -11,7 +11,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-TEST(Rig, WordsNameTerms) {
+TEST(BoardRig, WordsNameTerms) {
   EXPECT_THAT(lens_terms("pinhole"), ElementsAre());
   EXPECT_THAT(lens_terms("opencv4"), ElementsAre("k1", "k2", "p1p2"));
   EXPECT_THAT(lens_terms("k1+p1p2"), ElementsAre("k1", "p1p2"));
@@ -20,7 +20,7 @@ TEST(Rig, WordsNameTerms) {
   EXPECT_THAT(testing::input_error([] { lens_terms("k1+"); }), HasSubstr("expected"));
 }
 
-TEST(Rig, TheSmallestModelHoldsTheTerms) {
+TEST(BoardRig, TheSmallestModelHoldsTheTerms) {
   EXPECT_EQ(model_of_terms({}).lens_model, "LENSMODEL_PINHOLE");
   const DeviceModel k1 = model_of_terms({"k1"});
   EXPECT_EQ(k1.lens_model, "LENSMODEL_OPENCV4");
@@ -30,7 +30,7 @@ TEST(Rig, TheSmallestModelHoldsTheTerms) {
   EXPECT_EQ(model_of_terms(lens_terms("opencv12")).lens_model, "LENSMODEL_OPENCV12");
 }
 
-TEST(Rig, ColumnsAndTheirNames) {
+TEST(BoardRig, ColumnsAndTheirNames) {
   RigModel model;
   model.devices = {model_of_terms({"k1"}), model_of_terms({})};
   model.devices[0].one_focal_length = true;
@@ -48,33 +48,33 @@ TEST(Rig, ColumnsAndTheirNames) {
   EXPECT_EQ(columns.count, 14);
 }
 
-TEST(Rig, StepsAreUndone) {
+TEST(BoardRig, StepsAreUndone) {
   auto random = testing::generator();
   const testing::BoardTruth t = testing::board_truth({}, random);
   const RigColumns columns = columns_of(t.model);
   std::vector<double> step(columns.count), poses(6 * t.rig.camera_from_board.size(), 0.01);
   for (std::size_t i = 0; i < step.size(); ++i) step[i] = 0.001 * double(i + 1);
-  const Rig there = moved(t.rig, columns, step, poses);
+  const BoardRig there = moved(t.rig, columns, step, poses);
   const auto back = global_step(t.rig, there, columns);
   for (std::size_t i = 0; i < step.size(); ++i)
     EXPECT_NEAR(back[i], step[i], 1e-12);  // the rounding of focal lengths near 2000
   EXPECT_NE(there.camera_from_board[0].translation, t.rig.camera_from_board[0].translation);
 }
 
-TEST(Rig, FitsToRestrictedModels) {
+TEST(BoardRig, FitsToRestrictedModels) {
   auto random = testing::generator();
   testing::BoardTruth t = testing::board_truth({}, random);
   RigModel model = t.model;
   model.devices[1] = model_of_terms({"k1"});
   model.devices[1].one_focal_length = model.devices[1].fixed_center = true;
-  const Rig fitted = fitted_to(t.rig, model, t.capture);
+  const BoardRig fitted = fitted_to(t.rig, model, t.capture);
   EXPECT_EQ(fitted.devices[1].parameters[0], fitted.devices[1].parameters[1]);
   EXPECT_EQ(fitted.devices[1].parameters[2], 511.5);
   EXPECT_EQ(fitted.devices[1].parameters[3], 383.5);
   EXPECT_EQ(fitted.devices[1].parameters.size(), 8u);
 }
 
-TEST(Rig, BendLiftsTheMiddle) {
+TEST(BoardRig, BendLiftsTheMiddle) {
   const BoardExtent extent{{1, 2}, {1, 2}};
   EXPECT_EQ(bent({1, 2, 0}, extent, {0.25, 0.5}).z, 0.75);
   EXPECT_EQ(bent({0, 0, 0}, extent, {0.25, 0.5}).z, 0);

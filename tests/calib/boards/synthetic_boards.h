@@ -11,7 +11,7 @@ namespace laterna::testing {
 
 struct BoardTruth {
   RigModel model;
-  Rig rig;
+  BoardRig rig;
   BoardCapture capture;  ///< without noise
 };
 
@@ -34,8 +34,8 @@ inline glm::dmat3 turn(const glm::dvec3& a, const glm::dvec3& b) {
 }
 
 /// Camera 1280×1024 at the origin, projector 1024×768 with its principal point below the image, 0.3 m beside.
-inline Rig rig_without_poses(const BoardScene& scene) {
-  Rig rig;
+inline BoardRig rig_without_poses(const BoardScene& scene) {
+  BoardRig rig;
   rig.devices.resize(2);
   rig.devices[0].parameters = {1810, 1805, 655, 500};
   rig.devices[1].parameters = {1650, 1655, 500, 860};

@@ -13,7 +13,8 @@ namespace {
 
 using ::testing::HasSubstr;
 
-std::string refusal_of(Rig (*solve)(const BoardCapture&, const RigModel&), const testing::BoardTruth& t) {
+std::string refusal_of(BoardRig (*solve)(const BoardCapture&, const RigModel&),
+                       const testing::BoardTruth& t) {
   try {
     solve(t.capture, t.model);
   } catch (const Refusal& refusal) {
@@ -37,7 +38,7 @@ TEST(BoardMethods, MrcalEndsWhereTheJointAdjustmentEnds) {
   auto t = noisy_opencv4(random);
   for (const bool bend : {false, true}) {
     t.model.bend = bend;
-    const Rig mrcal = solve_mrcal(t.capture, t.model);
+    const BoardRig mrcal = solve_mrcal(t.capture, t.model);
     const auto joint = adjust({t.capture, t.model}, mrcal);
     ASSERT_TRUE(joint && joint->converged);
     const RigProblem problem(t.capture, t.model);
