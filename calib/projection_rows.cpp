@@ -85,14 +85,29 @@ bool squared_of_group(const PointTable& points, const LensGradient& lens, const 
 
 }  // namespace
 
+namespace {
+
+// Σ term(x), chunk by chunk, so that it is the same for any number of threads.
+template <class Sum, class Term>
+Sum sum_of(const std::vector<glm::dvec3>& points, Sum zero, const Term& term) {
+  std::vector<Sum> parts((points.size() + chunk - 1) / chunk, zero);
+  parallel_for(parts.size(), [&](std::size_t k) {
+    Sum sum = zero;
+    for (std::size_t i = k * chunk; i < std::min(points.size(), (k + 1) * chunk); ++i) sum += term(points[i]);
+    parts[k] = sum;
+  });
+  return std::accumulate(parts.begin(), parts.end(), zero);
+}
+
+}  // namespace
+
 WorldNormalisation normalisation_of(const std::vector<glm::dvec3>& points) {
   if (points.empty()) return {};
   const glm::dvec3 origin =
       points.front();  // sums of differences keep their digits far from the world's origin
-  glm::dvec3 sum(0.0);
-  for (const auto& x : points) sum += x - origin;
+  const glm::dvec3 sum = sum_of(points, glm::dvec3(0.0), [&](const glm::dvec3& x) { return x - origin; });
   WorldNormalisation n{origin + sum / double(points.size()), 0};
-  for (const auto& x : points) n.scale_m += glm::length(x - n.center);
+  n.scale_m = sum_of(points, 0.0, [&](const glm::dvec3& x) { return glm::length(x - n.center); });
   n.scale_m /= double(points.size());
   if (!(n.scale_m > 0)) n.scale_m = 1;
   return n;
@@ -114,24 +129,45 @@ ProjectorState state_of(const Device& device) {
   return state;
 }
 
+namespace {
+
+// Indices sorted by cluster, stable. Ids are counted where they are dense enough, else sorted.
+std::vector<std::size_t> order_of(const std::vector<std::uint32_t>& cluster, std::size_t n) {
+  std::vector<std::size_t> order(n);
+  const auto in_order = [&](std::size_t a, std::size_t b) { return cluster[a] < cluster[b]; };
+  const std::size_t ids =
+      cluster.empty() ? 0 : 1 + std::size_t(*std::max_element(cluster.begin(), cluster.end()));
+  if (cluster.empty() || ids > 4 * n) {
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    if (!cluster.empty()) std::stable_sort(order.begin(), order.end(), in_order);
+    return order;
+  }
+  std::vector<std::size_t> next(ids + 1, 0);
+  for (const std::uint32_t id : cluster) ++next[id + 1];
+  std::partial_sum(next.begin(), next.end(), next.begin());
+  for (std::size_t i = 0; i < n; ++i) order[next[cluster[i]]++] = i;
+  return order;
+}
+
+}  // namespace
+
 PointTable point_table(const Correspondences& c, const WorldNormalisation& normalisation) {
   const std::size_t n = c.world_points.size();
-  std::vector<std::size_t> order(n);
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  if (!c.cluster.empty()) {
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t a, std::size_t b) { return c.cluster[a] < c.cluster[b]; });
-  }
+  const std::vector<std::size_t> order = order_of(c.cluster, n);
   PointTable t;
-  for (auto* column : {&t.x, &t.y, &t.z, &t.u, &t.v, &t.inverse_sigma}) column->reserve(n);
-  for (std::size_t k = 0; k < n; ++k) {
-    const std::size_t i = order[k];
-    const glm::dvec3 x = (c.world_points[i] - normalisation.center) / normalisation.scale_m;
-    t.x.push_back(x.x), t.y.push_back(x.y), t.z.push_back(x.z);
-    t.u.push_back(c.projector_pixels[i].x), t.v.push_back(c.projector_pixels[i].y);
-    t.inverse_sigma.push_back(1 / c.sigma_px[i]);
-    if (k == 0 || c.cluster.empty() || c.cluster[i] != c.cluster[order[k - 1]]) t.cluster_begin.push_back(k);
-  }
+  for (auto* column : {&t.x, &t.y, &t.z, &t.u, &t.v, &t.inverse_sigma}) column->resize(n);
+  parallel_for((n + chunk - 1) / chunk, [&](std::size_t part) {
+    for (std::size_t k = part * chunk; k < std::min(n, (part + 1) * chunk); ++k) {
+      const std::size_t i = order[k];
+      const glm::dvec3 x = (c.world_points[i] - normalisation.center) / normalisation.scale_m;
+      t.x[k] = x.x, t.y[k] = x.y, t.z[k] = x.z;
+      t.u[k] = c.projector_pixels[i].x, t.v[k] = c.projector_pixels[i].y;
+      t.inverse_sigma[k] = 1 / c.sigma_px[i];
+    }
+  });
+  for (std::size_t k = 0; k < n; ++k)
+    if (k == 0 || c.cluster.empty() || c.cluster[order[k]] != c.cluster[order[k - 1]])
+      t.cluster_begin.push_back(k);
   t.cluster_begin.push_back(n);
   return t;
 }

@@ -38,6 +38,18 @@ ProjectorState state_of_blocks(const double* intrinsics, std::size_t count, cons
   return state;
 }
 
+// What all rows amount to at one place.
+struct Evaluation {
+  ProjectorState state;
+  std::vector<double> factor;
+  double loss = 0;
+};
+
+bool same(const ProjectorState& a, const ProjectorState& b) {
+  return a.parameters == b.parameters && a.device_from_points.rotation == b.device_from_points.rotation &&
+         a.device_from_points.translation == b.device_from_points.translation;
+}
+
 // All points as one residual block: p residuals z, then |remainder|, then what a robust loss adds.
 class StackedBlock : public ceres::CostFunction {
  public:
@@ -51,21 +63,41 @@ class StackedBlock : public ceres::CostFunction {
     const ProjectorState state = state_of_blocks(parameters[0], lens_.parameter_count(), parameters[1],
                                                  parameters[2], options_.pixel_scale);
     if (!jacobians) return cost_only(state, residuals);
-    const auto factor = row_factor(points_, lens_, state, options_.loss);
-    if (!factor) return false;
-    const RowMajor r = Eigen::Map<const RowMajor>(factor->data(), p_ + 1, p_ + 1);
+    if (!evaluate(state)) return false;
+    const RowMajor r = Eigen::Map<const RowMajor>(last_.factor.data(), p_ + 1, p_ + 1);
     Eigen::Map<Eigen::VectorXd>(residuals, p_ + 1) = r.col(p_);
-    residuals[p_ + 1] = 0;
-    if (options_.loss.kind != RobustLoss::Kind::none) {
-      const auto loss = total_loss(points_, lens_, state, options_.loss);
-      if (!loss) return false;
-      residuals[p_ + 1] = std::sqrt(std::max(0.0, *loss - r.col(p_).squaredNorm()));
-    }
+    residuals[p_ + 1] = std::sqrt(std::max(0.0, last_.loss - r.col(p_).squaredNorm()));
+    if (options_.loss.kind == RobustLoss::Kind::none) residuals[p_ + 1] = 0;
     write_jacobians(r, parameters[1], jacobians);
     return r.allFinite();
   }
 
+  // With a factor at hand this is evaluated there, and nowhere else.
+  void keep(std::vector<double> factor) { given_ = std::move(factor); }
+
+  // The last place where derivatives were asked for; none where there was none.
+  const Evaluation& last() const { return last_; }
+
+  // Length of the Gauss-Newton step from there in standard deviations: δ = -R⁻¹·z, so δᵀ·RᵀR·δ = |z|².
+  double next_step_sigmas() const {
+    if (last_.factor.empty()) return INFINITY;
+    return Eigen::Map<const RowMajor>(last_.factor.data(), p_ + 1, p_ + 1).col(p_).head(p_).norm();
+  }
+
  private:
+  bool evaluate(const ProjectorState& state) const {
+    auto factor = given_.empty() ? row_factor(points_, lens_, state, options_.loss) : std::optional(given_);
+    if (!factor) return false;
+    double loss = Eigen::Map<const RowMajor>(factor->data(), p_ + 1, p_ + 1).col(p_).squaredNorm();
+    if (options_.loss.kind != RobustLoss::Kind::none) {
+      const auto total = total_loss(points_, lens_, state, options_.loss);
+      if (!total) return false;
+      loss = *total;
+    }
+    last_ = {state, std::move(*factor), loss};
+    return true;
+  }
+
   bool cost_only(const ProjectorState& state, double* residuals) const {
     const auto loss = total_loss(points_, lens_, state, options_.loss);
     if (!loss) return false;
@@ -97,13 +129,32 @@ class StackedBlock : public ceres::CostFunction {
   const LensGradient& lens_;
   const RefineOptions& options_;
   const int p_;
+  std::vector<double> given_;
+  mutable Evaluation last_;  // Ceres evaluates on one thread
 };
 
-void build(ceres::Problem& problem, const PointTable& points, const LensGradient& lens,
-           const RefineOptions& options, Blocks& blocks) {
+constexpr double negligible_step_sigmas = 1e-6;
+
+// Ends the iterations where the next step would not matter.
+class StepWatch : public ceres::IterationCallback {
+ public:
+  explicit StepWatch(const StackedBlock& block) : block_(block) {}
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary&) override {
+    return block_.next_step_sigmas() < negligible_step_sigmas ? ceres::SOLVER_TERMINATE_SUCCESSFULLY
+                                                              : ceres::SOLVER_CONTINUE;
+  }
+
+ private:
+  const StackedBlock& block_;
+};
+
+StackedBlock& build(ceres::Problem& problem, const PointTable& points, const LensGradient& lens,
+                    const RefineOptions& options, Blocks& blocks) {
   double *k = blocks.intrinsics.data(), *q = blocks.quaternion_xyzw.data(), *t = blocks.translation.data();
-  problem.AddResidualBlock(new StackedBlock(points, lens, options), nullptr, k, q, t);
+  auto* block = new StackedBlock(points, lens, options);  // the problem's from here on
+  problem.AddResidualBlock(block, nullptr, k, q, t);
   problem.SetManifold(q, new ceres::EigenQuaternionManifold);
+  return *block;
 }
 
 ceres::Solver::Options solver_options(int max_iterations) {
@@ -127,33 +178,43 @@ std::optional<Refinement> refine(const PointTable& points, const LensGradient& l
   if (!total_loss(points, lens, start, options.loss)) return std::nullopt;
   Blocks blocks = blocks_of(start, options.pixel_scale);
   ceres::Problem problem;
-  build(problem, points, lens, options, blocks);
+  const StackedBlock& block = build(problem, points, lens, options, blocks);
+  StepWatch watch(block);
+  ceres::Solver::Options how = solver_options(options.max_iterations);
+  how.callbacks.push_back(&watch);
   ceres::Solver::Summary summary;
-  ceres::Solve(solver_options(options.max_iterations), &problem, &summary);
+  ceres::Solve(how, &problem, &summary);
   if (!summary.IsSolutionUsable()) return std::nullopt;
 
   Refinement result;
   result.state =
       state_of_blocks(blocks.intrinsics.data(), blocks.intrinsics.size(), blocks.quaternion_xyzw.data(),
                       blocks.translation.data(), options.pixel_scale);
-  const auto factor = row_factor(points, lens, result.state, options.loss);
-  const auto loss = total_loss(points, lens, result.state, options.loss);
-  if (!factor || !loss) return std::nullopt;
-  result.factor = *factor;
-  result.loss = *loss;
-  result.converged = summary.termination_type == ceres::CONVERGENCE;
+  if (same(block.last().state, result.state)) {
+    result.factor = block.last().factor;
+    result.loss = block.last().loss;
+  } else {
+    const auto factor = row_factor(points, lens, result.state, options.loss);
+    const auto loss = total_loss(points, lens, result.state, options.loss);
+    if (!factor || !loss) return std::nullopt;
+    result.factor = *factor;
+    result.loss = *loss;
+  }
+  const bool no_step_left = summary.termination_type == ceres::USER_SUCCESS;
+  result.converged = no_step_left || summary.termination_type == ceres::CONVERGENCE;
   result.iterations = int(summary.iterations.size()) - 1;
-  result.termination = summary.message;
+  result.termination =
+      no_step_left ? "Convergence. The next step is below 1e-6 standard deviations." : summary.message;
   return result;
 }
 
 std::optional<std::vector<double>> ceres_covariance(const PointTable& points, const LensGradient& lens,
-                                                    const ProjectorState& state,
-                                                    const RefineOptions& options) {
+                                                    const ProjectorState& state, const RefineOptions& options,
+                                                    std::vector<double> factor) {
   const int k = lens.parameter_count(), p = k + 6;
   Blocks blocks = blocks_of(state, options.pixel_scale);
   ceres::Problem problem;
-  build(problem, points, lens, options, blocks);
+  build(problem, points, lens, options, blocks).keep(std::move(factor));
   ceres::Covariance::Options o;
   o.algorithm_type = ceres::DENSE_SVD;
   o.min_reciprocal_condition_number = 1e-26;  // of JᵀJ

@@ -165,7 +165,8 @@ SolveResult solve(const Correspondences& c, glm::ivec2 size, const SolveOptions&
   }
   const auto independent =
       result.smallest_gap > rank_deficient
-          ? ceres_covariance(points, lens, fit.state, {options.loss, 0, double(std::max(size.x, size.y))})
+          ? ceres_covariance(points, lens, fit.state, {options.loss, 0, double(std::max(size.x, size.y))},
+                             fit.factor)
           : std::nullopt;
   if (!independent) {
     return refused(result,

@@ -1,6 +1,7 @@
 #include "calib/verify.h"
 
 #include "calib/projection_rows.h"
+#include "calib/row_kernels.h"
 #include "sim/error.h"
 #include "sim/parallel.h"
 
@@ -50,6 +51,57 @@ double trace_of(const std::vector<double>& rows, const std::vector<double>& c, i
     }
   }
   return sum;
+}
+
+// Σ trace(J·C·Jᵀ), and over how many points.
+struct TraceSum {
+  double sum = 0;
+  std::size_t points = 0;
+};
+
+TraceSum trace_one_by_one(const LensGradient& lens, const ProjectorState& state, const std::vector<double>& c,
+                          const glm::dvec3* points, std::size_t count) {
+  const int p = lens.parameter_count() + 6;
+  std::vector<double> rows(2 * std::size_t(p));
+  double pixel[2];
+  TraceSum trace;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!project_with_rows(lens, state, points[i], pixel, rows.data())) continue;
+    ++trace.points;
+    trace.sum += trace_of(rows, c, p);
+  }
+  return trace;
+}
+
+// The same as Σ_ab C_ab·(JᵀJ)_ab, column by column; point by point where some cannot be projected.
+TraceSum trace_together(const LensGradient& lens, const ProjectorState& state, const std::vector<double>& c,
+                        const glm::dvec3* points, std::size_t count) {
+  const int p = lens.parameter_count() + 6;
+  constexpr std::size_t rows = 2 * group_points;
+  PointTable table;
+  for (auto* column : {&table.u, &table.v}) column->assign(count, 0.0);
+  table.inverse_sigma.assign(count, 1.0);
+  for (std::size_t i = 0; i < count; ++i)
+    table.x.push_back(points[i].x), table.y.push_back(points[i].y), table.z.push_back(points[i].z);
+  std::vector<double> block(rows * (p + 1));
+  TraceSum trace{0, count};
+  for (std::size_t i = 0; i < count; i += group_points) {
+    const std::size_t end = std::min(count, i + group_points);
+    std::fill(block.begin(), block.end(), 0.0);
+    if (!fill_rows(table, lens, state, {}, i, end, {block.data(), rows, group_points}))
+      return trace_one_by_one(lens, state, c, points, count);
+    for (int a = 0; a < p; ++a) {
+      for (int b = a; b < p; b += 4) {
+        double* columns[4];
+        double dots[4];
+        for (int j = 0; j < 4; ++j) columns[j] = &block[rows * std::min(b + j, p - 1)];
+        dot4(&block[rows * a], columns, rows, dots);
+        for (int j = 0; j < 4 && b + j < p; ++j)
+          trace.sum += (b + j == a ? 1 : 2) * c[a * p + b + j] * dots[j];
+      }
+    }
+  }
+  return trace;
 }
 
 ErrorSummary summarise(const Device& truth, const Device& estimate, const std::vector<double>& covariance,
@@ -155,21 +207,11 @@ std::optional<double> predicted_rms(const Device& device, const std::vector<doub
     throw InputError(fmt::format("covariance: {} numbers, expected {}×{} for this projector's parameters",
                                  covariance.size(), p, p));
   }
-  struct Part {
-    double sum = 0;
-    std::size_t points = 0;
-  };
-  std::vector<Part> parts((points.size() + chunk - 1) / chunk);
+  std::vector<TraceSum> parts((points.size() + chunk - 1) / chunk);
   in_chunks(points.size(), [&](std::size_t k, std::size_t begin, std::size_t end) {
-    std::vector<double> rows(2 * std::size_t(p));
-    double pixel[2];
-    for (std::size_t i = begin; i < end; ++i) {
-      if (!project_with_rows(lens, state, points[i], pixel, rows.data())) continue;
-      ++parts[k].points;
-      parts[k].sum += trace_of(rows, covariance, p);
-    }
+    parts[k] = trace_together(lens, state, covariance, &points[begin], end - begin);
   });
-  Part total;
+  TraceSum total;
   for (const auto& part : parts) total.sum += part.sum, total.points += part.points;
   if (total.points == 0) return std::nullopt;
   return std::sqrt(std::max(0.0, total.sum / double(total.points)));

@@ -24,6 +24,14 @@ class CameraRays {
     return table_(x, y);
   }
 
+  /// The directions of the 4×4 pixels from `first` on, row by row: x/z and y/z.
+  void tile(const glm::ivec2& first, double* x, double* y) const {
+    for (int lane = 0; lane < 16; ++lane) {
+      const glm::dvec2 d = direction(first.x + lane % 4, first.y + lane / 4);
+      x[lane] = d.x, y[lane] = d.y;
+    }
+  }
+
   /// The same at (x, y) + offset, within half a pixel each way: exact for a pinhole, else by the slope
   /// between the pixel's neighbours, which is off by the lens's curvature over a pixel, some 1e-5 px; NaN
   /// where a neighbour has no direction.

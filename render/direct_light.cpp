@@ -20,47 +20,98 @@ Projector switched(Projector projector, const Effects& effects) {
   return projector;
 }
 
-void aim_at_light(RayPacket& packet, int lane, const glm::dvec3& start, const glm::dvec3& towards) {
-  packet.origin_x[lane] = static_cast<float>(start.x), packet.direction_x[lane] = float(towards.x);
-  packet.origin_y[lane] = static_cast<float>(start.y), packet.direction_y[lane] = float(towards.y);
-  packet.origin_z[lane] = static_cast<float>(start.z), packet.direction_z[lane] = float(towards.z);
-  packet.valid[lane] = -1;
+// A tile while it is lit.
+struct Tile {
+  int x0, y0, count_x, count_y;  // in the map
+  std::uint32_t object[packet_size];
+  TilePoints points;
+  TilePixels pixels;
+  TileLight light;
+  RayPacket shadow_rays;
+};
+
+void read_pixel(Tile& tile, int lane, std::size_t p, const SurfaceMap& surface, const RayScene& rays) {
+  tile.object[lane] = surface.object.values[p];
+  if (tile.object[lane] == no_hit) return;
+  const TrianglePlane& plane = rays.plane(tile.object[lane], surface.triangle.values[p]);
+  const glm::dvec3& x = surface.point_object.values[p];
+  TilePoints& t = tile.points;
+  t.x[lane] = x.x, t.y[lane] = x.y, t.z[lane] = x.z;
+  t.normal_x[lane] = plane.normal_world.x, t.normal_y[lane] = plane.normal_world.y;
+  t.normal_z[lane] = plane.normal_world.z, t.margin_m[lane] = plane.margin_m;
+  t.front[lane] = surface.seen_front.values[p];
 }
 
-// Everything but the shadow; fills the shadow ray's lane where the point is still lit.
-void light_pixel(LightMap& map, std::size_t p, RayPacket& packet, int lane, const ProjectorView& light,
-                 const SurfaceMap& surface, const RayScene& rays) {
-  packet.valid[lane] = 0;
-  map.white_lx.values[p] = 0;
-  if (!surface.hit(p)) {
-    map.u_px.values[p] = map.v_px.values[p] = std::numeric_limits<double>::quiet_NaN();
-    map.why.values[p] = std::uint8_t(Unlit::no_surface);
-    return;
+void read_tile(Tile& tile, const SurfaceMap& surface, const RayScene& rays) {
+  if (tile.count_x < tile_edge || tile.count_y < tile_edge) std::fill_n(tile.object, packet_size, no_hit);
+  for (int j = 0; j < tile.count_y; ++j)
+    for (int i = 0; i < tile.count_x; ++i)
+      read_pixel(tile, j * tile_edge + i, surface.object.index(tile.x0 + i, tile.y0 + j), surface, rays);
+}
+
+void apply_lens(const ProjectiveLookup& lookup, TilePixels& pixels) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  for (int lane = 0; lane < packet_size; ++lane) {
+    if (!(pixels.q[lane] > 0)) continue;
+    ProjectedPoint point{pixels.u_px[lane], pixels.v_px[lane], pixels.q[lane], 0, Unlit::lit};
+    const bool mapped = lookup.warp(point);
+    pixels.u_px[lane] = mapped ? point.u_px : nan;
+    pixels.v_px[lane] = mapped ? point.v_px : nan;
+    pixels.pixels_per_unit_area[lane] = point.pixels_per_unit_area;
   }
-  const std::uint32_t object = surface.object.values[p];
-  const ObjectLight& view = light.objects[object];
-  const glm::dvec3& point_object = surface.point_object.values[p];
-  const ProjectedPoint hit = view.lookup.project(point_object);
-  map.u_px.values[p] = hit.u_px;
-  map.v_px.values[p] = hit.v_px;
-  map.why.values[p] = std::uint8_t(hit.why);
-  if (hit.why != Unlit::lit) return;
-  const TrianglePlane& plane = rays.plane(object, surface.triangle.values[p]);
-  const glm::dvec3 point = view.world_from_object_linear * point_object + view.object_relative;
-  const double height = glm::dot(plane.normal_world, light.center_relative - point);
-  const bool two_sided = !light.effects.back_face && height < 0;
-  if (light.effects.back_face && (!(height > 0) || !surface.seen_front.values[p])) {
-    map.why.values[p] = std::uint8_t(Unlit::back_face);
-    return;
+}
+
+void light_object(Tile& tile, const ObjectLight& object) {
+  project_tile(object.terms.lookup, tile.points, tile.pixels);
+  if (!object.lookup.is_pinhole()) apply_lens(object.lookup, tile.pixels);
+  light_tile(object.terms, tile.points, tile.pixels, tile.light, tile.shadow_rays);
+}
+
+void copy_lane(const Tile& from, int lane, Tile& to) {
+  to.pixels.u_px[lane] = from.pixels.u_px[lane], to.pixels.v_px[lane] = from.pixels.v_px[lane];
+  to.light.white_lx[lane] = from.light.white_lx[lane], to.light.why[lane] = from.light.why[lane];
+  const RayPacket& a = from.shadow_rays;
+  RayPacket& b = to.shadow_rays;
+  b.origin_x[lane] = a.origin_x[lane], b.direction_x[lane] = a.direction_x[lane];
+  b.origin_y[lane] = a.origin_y[lane], b.direction_y[lane] = a.direction_y[lane];
+  b.origin_z[lane] = a.origin_z[lane], b.direction_z[lane] = a.direction_z[lane];
+  b.valid[lane] = a.valid[lane];
+}
+
+void clear_lane(Tile& tile, int lane) {
+  tile.pixels.u_px[lane] = tile.pixels.v_px[lane] = std::numeric_limits<double>::quiet_NaN();
+  tile.light.white_lx[lane] = 0;
+  tile.light.why[lane] = int(Unlit::no_surface);
+  tile.shadow_rays.valid[lane] = 0;
+}
+
+// Everything but the shadow; fills the shadow rays of the points that are still lit.
+void light_points(Tile& tile, const ProjectorView& light) {
+  const std::uint32_t* end = tile.object + packet_size;
+  const std::uint32_t* first =
+      std::find_if(tile.object, const_cast<std::uint32_t*>(end), [](std::uint32_t o) { return o != no_hit; });
+  if (first != end) light_object(tile, light.objects[*first]);
+  for (int lane = 0; lane < packet_size; ++lane) {
+    const std::uint32_t object = tile.object[lane];
+    if (object == no_hit) {
+      clear_lane(tile, lane);
+    } else if (object != *first) {
+      Tile other = tile;
+      light_object(other, light.objects[object]);
+      copy_lane(other, lane, tile);
+    }
   }
-  const double z = hit.depth_m;
-  const double above = two_sided ? -height : height;
-  map.white_lx.values[p] = light.effects.irradiance
-                               ? light.flux_per_pixel_lm * hit.pixels_per_unit_area * above / (z * z * z)
-                               : light.facing_at_1_m_lx;
-  if (!light.effects.shadow) return;
-  const glm::dvec3 start = point + (two_sided ? -plane.margin_m : plane.margin_m) * plane.normal_world;
-  aim_at_light(packet, lane, start, light.center_relative - start);
+}
+
+void write_tile(const Tile& tile, LightMap& map) {
+  for (int j = 0; j < tile.count_y; ++j) {
+    const int lane = j * tile_edge;
+    const std::size_t p = map.u_px.index(tile.x0, tile.y0 + j);
+    copy_row(tile.pixels.u_px + lane, tile.count_x, &map.u_px.values[p]);
+    copy_row(tile.pixels.v_px + lane, tile.count_x, &map.v_px.values[p]);
+    copy_row(tile.light.white_lx + lane, tile.count_x, &map.white_lx.values[p]);
+    for (int i = 0; i < tile.count_x; ++i) map.why.values[p + i] = std::uint8_t(tile.light.why[lane + i]);
+  }
 }
 
 }  // namespace
@@ -70,11 +121,14 @@ ProjectorView make_projector_view(const RayScene& rays, const Scene& scene, cons
   const glm::dvec3 center = center_in_world(projector.device.device_from_world);
   const Intrinsics& k = projector.device.intrinsics;
   const double flux = projector.flux_lm / (double(k.size.x) * k.size.y);
-  ProjectorView light{scene.effects, center - rays.center_world(), flux, flux * k.fx * k.fy, {}};
+  ProjectorView light;
   for (const Object& object : scene.objects) {
     const glm::dmat4& m = object.world_from_object;
-    light.objects.push_back(
-        {ProjectiveLookup(projector, m), glm::dmat3(m), glm::dvec3(m[3]) - rays.center_world()});
+    const ProjectiveLookup lookup(projector, m);
+    light.objects.push_back({lookup,
+                             {lookup.terms(), glm::dmat3(m), glm::dvec3(m[3]) - rays.center_world(),
+                              center - rays.center_world(), flux, flux * k.fx * k.fy, scene.effects.back_face,
+                              scene.effects.irradiance, scene.effects.shadow}});
   }
   return light;
 }
@@ -85,23 +139,21 @@ LightMap make_light_map(int width, int height) {
 
 void trace_light_tiles(const RayScene& rays, const ProjectorView& light, const SurfaceMap& surface,
                        int tile_row, LightMap& map) {
-  const int y0 = tile_row * tile_edge, y1 = std::min(y0 + tile_edge, map.height);
-  RayPacket packet{};
-  std::fill_n(packet.end, packet_size, shadow_ray_end);
-  for (int x0 = 0; x0 < map.width; x0 += tile_edge) {
-    const int x1 = std::min(x0 + tile_edge, map.width);
-    std::fill_n(packet.valid, packet_size, 0);
-    for (int y = y0; y < y1; ++y)
-      for (int x = x0; x < x1; ++x)
-        light_pixel(map, map.u_px.index(x, y), packet, (y - y0) * tile_edge + x - x0, light, surface, rays);
-    if (std::none_of(packet.valid, packet.valid + packet_size, [](int valid) { return valid != 0; }))
-      continue;
-    for (std::uint32_t blocked = rays.occluded(packet); blocked; blocked &= blocked - 1) {
+  Tile tile{};
+  tile.shadow_rays = make_ray_packet();
+  tile.y0 = tile_row * tile_edge;
+  tile.count_y = std::min(tile_edge, map.height - tile.y0);
+  for (tile.x0 = 0; tile.x0 < map.width; tile.x0 += tile_edge) {
+    tile.count_x = std::min(tile_edge, map.width - tile.x0);
+    read_tile(tile, surface, rays);
+    light_points(tile, light);
+    std::fill_n(tile.shadow_rays.end, packet_size, shadow_ray_end);
+    for (std::uint32_t blocked = rays.trace_shadows(tile.shadow_rays); blocked; blocked &= blocked - 1) {
       const int lane = std::countr_zero(blocked);
-      const std::size_t p = map.u_px.index(x0 + lane % tile_edge, y0 + lane / tile_edge);
-      map.why.values[p] = std::uint8_t(Unlit::shadow);
-      map.white_lx.values[p] = 0;
+      tile.light.why[lane] = int(Unlit::shadow);
+      tile.light.white_lx[lane] = 0;
     }
+    write_tile(tile, map);
   }
 }
 

@@ -4,6 +4,7 @@
 #include "render/pixel_array.h"
 #include "render/projective_lookup.h"
 #include "render/surface.h"
+#include "render/tile_kernels.h"
 
 namespace laterna {
 
@@ -36,16 +37,11 @@ LightMap trace_light(const RayScene& rays, const Scene& scene, const SurfaceMap&
 /// The projector as one object sees it.
 struct ObjectLight {
   ProjectiveLookup lookup;
-  glm::dmat3 world_from_object_linear;
-  glm::dvec3 object_relative;  ///< the object's origin, in world axes, relative to the scene's centre
+  LightTerms terms;
 };
 
 /// A projector ready to light region by region.
 struct ProjectorView {
-  Effects effects;
-  glm::dvec3 center_relative;  ///< in world axes, relative to the scene's centre
-  double flux_per_pixel_lm;
-  double facing_at_1_m_lx;  ///< Φ·fx·fy/(1 m)²
   std::vector<ObjectLight> objects;
 };
 ProjectorView make_projector_view(const RayScene& rays, const Scene& scene, const Projector& projector);

@@ -81,13 +81,15 @@ void expose_block(const Exposure& exposure, std::uint32_t first_pixel, int pictu
   const PixelGains gains = exposure.electrons ? pixel_gains(*exposure.electrons, first_pixel) : PixelGains{};
   float signal[block];
   for (int first = 0; first < pictures; first += noise_pictures) {
+    const int end = std::min(first + noise_pictures, pictures);
     Draws draws(exposure.noise, first_pixel, first / noise_pictures);
-    for (int k = first; k < std::min(first + noise_pictures, pictures); ++k) {
-      const float* level = levels + k * block;
-      if (exposure.electrons)
-        expose_electrons(exposure, gains, draws, k - first, level, signal);
-      else
-        add_noise(sigma, level, draws.temporal + (k - first) * block, signal);
+    if (!exposure.electrons) {
+      quantise_noisy(levels + first * block, sigma, draws.temporal, full_scale, (end - first) * block,
+                     dn + first * block);
+      continue;
+    }
+    for (int k = first; k < end; ++k) {
+      expose_electrons(exposure, gains, draws, k - first, levels + k * block, signal);
       quantise(signal, full_scale, block, dn + k * block);
     }
   }

@@ -72,20 +72,26 @@ void expose_bright(const ElectronModel& model, const PixelGains& gains, const fl
   }
 }
 
-void add_noise(float sigma, const float* levels, const float* deviates, float* signal) {
-  for (std::size_t i = 0; i < block; i += hn::Lanes(f))
-    hn::StoreU(hn::Add(hn::LoadU(f, levels + i), hn::Mul(set(sigma), hn::LoadU(f, deviates + i))), f,
-               signal + i);
+template <class Number>
+HWY_INLINE void write_dn(FloatV signal, float full_scale, Number* dn) {
+  const hn::Rebind<std::int32_t, Floats> ints;
+  const hn::Rebind<Number, Floats> numbers;
+  const FloatV clamped = hn::Min(positive(signal), set(full_scale));
+  hn::StoreU(hn::DemoteTo(numbers, hn::ConvertTo(ints, hn::Add(clamped, set(0.5f)))), numbers, dn);
 }
 
 template <class Number>
 HWY_INLINE void quantise(const float* signal, float full_scale, int count, Number* dn) {
-  const hn::Rebind<std::int32_t, Floats> ints;
-  const hn::Rebind<Number, Floats> numbers;
+  for (std::size_t i = 0; i < std::size_t(count); i += hn::Lanes(f))
+    write_dn(hn::LoadU(f, signal + i), full_scale, dn + i);
+}
+
+template <class Number>
+HWY_INLINE void quantise_noisy(const float* signal, float sigma, const float* deviates, float full_scale,
+                               int count, Number* dn) {
   for (std::size_t i = 0; i < std::size_t(count); i += hn::Lanes(f)) {
-    const FloatV clamped = hn::Min(positive(hn::LoadU(f, signal + i)), set(full_scale));
-    const auto rounded = hn::ConvertTo(ints, hn::Add(clamped, set(0.5f)));
-    hn::StoreU(hn::DemoteTo(numbers, rounded), numbers, dn + i);
+    const FloatV noise = hn::Mul(set(sigma), hn::LoadU(f, deviates + i));
+    write_dn(hn::Add(hn::LoadU(f, signal + i), noise), full_scale, dn + i);
   }
 }
 
@@ -94,6 +100,14 @@ void quantise_8(const float* signal, float full_scale, int count, std::uint8_t* 
 }
 void quantise_16(const float* signal, float full_scale, int count, std::uint16_t* dn) {
   quantise(signal, full_scale, count, dn);
+}
+void quantise_noisy_8(const float* signal, float sigma, const float* deviates, float full_scale, int count,
+                      std::uint8_t* dn) {
+  quantise_noisy(signal, sigma, deviates, full_scale, count, dn);
+}
+void quantise_noisy_16(const float* signal, float sigma, const float* deviates, float full_scale, int count,
+                       std::uint16_t* dn) {
+  quantise_noisy(signal, sigma, deviates, full_scale, count, dn);
 }
 
 }  // namespace
@@ -107,9 +121,10 @@ namespace {
 HWY_EXPORT(expose_medium);
 HWY_EXPORT(expose_dim);
 HWY_EXPORT(expose_bright);
-HWY_EXPORT(add_noise);
 HWY_EXPORT(quantise_8);
 HWY_EXPORT(quantise_16);
+HWY_EXPORT(quantise_noisy_8);
+HWY_EXPORT(quantise_noisy_16);
 }  // namespace
 
 LightKinds expose_medium(const ElectronModel& model, const PixelGains& gains, const float* levels,
@@ -127,16 +142,22 @@ void expose_bright(const ElectronModel& model, const PixelGains& gains, const fl
   HWY_DYNAMIC_DISPATCH(expose_bright)(model, gains, means, shot, deviates, signal);
 }
 
-void add_noise(float sigma, const float* levels, const float* deviates, float* signal) {
-  HWY_DYNAMIC_DISPATCH(add_noise)(sigma, levels, deviates, signal);
-}
-
 void quantise(const float* signal, float full_scale, int count, std::uint8_t* dn) {
   HWY_DYNAMIC_DISPATCH(quantise_8)(signal, full_scale, count, dn);
 }
 
 void quantise(const float* signal, float full_scale, int count, std::uint16_t* dn) {
   HWY_DYNAMIC_DISPATCH(quantise_16)(signal, full_scale, count, dn);
+}
+
+void quantise_noisy(const float* signal, float sigma, const float* deviates, float full_scale, int count,
+                    std::uint8_t* dn) {
+  HWY_DYNAMIC_DISPATCH(quantise_noisy_8)(signal, sigma, deviates, full_scale, count, dn);
+}
+
+void quantise_noisy(const float* signal, float sigma, const float* deviates, float full_scale, int count,
+                    std::uint16_t* dn) {
+  HWY_DYNAMIC_DISPATCH(quantise_noisy_16)(signal, sigma, deviates, full_scale, count, dn);
 }
 
 }  // namespace laterna

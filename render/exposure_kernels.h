@@ -31,11 +31,14 @@ void expose_dim(const ElectronModel& model, const PixelGains& gains, const float
 void expose_bright(const ElectronModel& model, const PixelGains& gains, const float* means, const float* shot,
                    const float* deviates, float* signal);
 
-/// signal = levels + sigma·deviates.
-void add_noise(float sigma, const float* levels, const float* deviates, float* signal);
-
 /// dn = signal clamped to [0, full_scale], rounded, halves up; NaN is 0. `count`, a multiple of 64.
 void quantise(const float* signal, float full_scale, int count, std::uint8_t* dn);
 void quantise(const float* signal, float full_scale, int count, std::uint16_t* dn);
+
+/// The same of signal + sigma·deviates.
+void quantise_noisy(const float* signal, float sigma, const float* deviates, float full_scale, int count,
+                    std::uint8_t* dn);
+void quantise_noisy(const float* signal, float sigma, const float* deviates, float full_scale, int count,
+                    std::uint16_t* dn);
 
 }  // namespace laterna

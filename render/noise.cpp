@@ -54,13 +54,12 @@ HWY_INLINE void add_keys(const std::uint32_t* keys, int j, WordV& a, WordV& b, W
   d = hn::Add(d, hn::Set(w, keys[(j + 3) % 5] + std::uint32_t(j)));
 }
 
-// Threefry4x32-16: sixteen rounds of add, turn and exclusive or, a key added after every fourth.
+// Threefry4x32-12: twelve rounds of add, turn and exclusive or, a key added after every fourth.
 HWY_INLINE void threefry(const std::uint32_t* keys, WordV& a, WordV& b, WordV& c, WordV& d) {
   add_keys(keys, 0, a, b, c, d);
   four_rounds<10, 26, 11, 21, 13, 27, 23, 5>(a, b, c, d), add_keys(keys, 1, a, b, c, d);
   four_rounds<6, 20, 17, 11, 25, 10, 18, 20>(a, b, c, d), add_keys(keys, 2, a, b, c, d);
   four_rounds<10, 26, 11, 21, 13, 27, 23, 5>(a, b, c, d), add_keys(keys, 3, a, b, c, d);
-  four_rounds<6, 20, 17, 11, 25, 10, 18, 20>(a, b, c, d), add_keys(keys, 4, a, b, c, d);
 }
 
 // The words of the pixels from first_pixel + i on.

@@ -18,8 +18,8 @@ enum class NoiseStream : std::uint32_t { temporal, shot, non_uniformity };
 /// first_pixel + i and picture 4·group + j, for any first_pixel.
 inline constexpr int noise_pixels = 64, noise_pictures = 4, noise_values = noise_pixels * noise_pictures;
 
-/// Uniform 32-bit words: Threefry4x32 with 16 rounds (Salmon et al., "Parallel Random Numbers: As Easy as 1,
-/// 2, 3", SC 2011; its authors found no flaw from 12 rounds on), which unlike their Philox needs no 64-bit
+/// Uniform 32-bit words: Threefry4x32 with 12 rounds (Salmon et al., "Parallel Random Numbers: As Easy as 1,
+/// 2, 3", SC 2011; the fewest that pass all of TestU01), which unlike their Philox needs no 64-bit
 /// products and so vectorises everywhere. Counter (pixel, group, stream, 0) under the key (seed, camera,
 /// projector); word j is picture 4·group + j.
 void random_words(const NoiseKey& key, NoiseStream stream, std::uint32_t first_pixel, std::uint32_t group,

@@ -6,7 +6,9 @@
 
 #include <glm/glm.hpp>
 
+#include <algorithm>
 #include <cstddef>
+#include <cstring>
 #include <vector>
 
 namespace laterna {
@@ -24,6 +26,16 @@ struct PixelArray {
   T& operator()(int x, int y) { return values[index(x, y)]; }
   const T& operator()(int x, int y) const { return values[index(x, y)]; }
 };
+
+/// Copies `count` ≤ 4 values, a row of a tile.
+template <class T>
+void copy_row(const T* from, int count, T* to) {
+  if (count == 4) {
+    std::memcpy(to, from, 4 * sizeof(T));
+  } else {
+    std::copy_n(from, count, to);
+  }
+}
 
 /// A rectangle of a camera's image, in pixels. `x` and `y` are multiples of 4, so that the tiles of rays that
 /// travel together are those of the whole image.

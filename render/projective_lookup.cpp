@@ -3,22 +3,25 @@
 namespace laterna {
 
 ProjectiveLookup::ProjectiveLookup(const Projector& projector, const glm::dmat4& world_from_object)
-    : near_m_(projector.device.planes.near_m.value_or(0.0)),
-      far_m_(projector.device.planes.far_m.value_or(std::numeric_limits<double>::infinity())),
-      width_(projector.device.intrinsics.size.x),
-      height_(projector.device.intrinsics.size.y),
-      pinhole_area_(projector.device.intrinsics.fx * projector.device.intrinsics.fy),
-      clamp_(projector.border == Border::clamp),
-      pinhole_(is_pinhole(projector.device.lens)),
+    : terms_{{},
+             {},
+             {},
+             projector.device.planes.near_m.value_or(0.0),
+             projector.device.planes.far_m.value_or(std::numeric_limits<double>::infinity()),
+             double(projector.device.intrinsics.size.x),
+             double(projector.device.intrinsics.size.y),
+             projector.device.intrinsics.fx * projector.device.intrinsics.fy,
+             projector.border == Border::clamp},
+      pinhole_(laterna::is_pinhole(projector.device.lens)),
       lens_(projector.device.intrinsics, projector.device.lens) {
   const Device& device = projector.device;
   const glm::dmat4x3 pixel = pixel_from_object(
       texture_from_object(device.intrinsics, device.planes, device.device_from_world, world_from_object),
       device.intrinsics.size);
   for (int i = 0; i < 4; ++i) {
-    u_[i] = pixel[i].x;
-    v_[i] = pixel[i].y;
-    q_[i] = pixel[i].z;
+    terms_.u[i] = pixel[i].x;
+    terms_.v[i] = pixel[i].y;
+    terms_.q[i] = pixel[i].z;
   }
 }
 

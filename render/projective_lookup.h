@@ -38,6 +38,14 @@ struct ProjectedPoint {
   Unlit why;                    ///< lit, or one of the reasons down to `outside`
 };
 
+/// What divide() needs beside the lens: (u·q, v·q, q) of the pinhole are u, v and q times (x, 1).
+struct LookupTerms {
+  double u[4], v[4], q[4];
+  double near_m, far_m, width, height;
+  double pinhole_area;  ///< fx·fy
+  bool clamp;           ///< Border::clamp
+};
+
 /// A projector seen from one object's frame. Immutable, safe to share among threads.
 class ProjectiveLookup {
  public:
@@ -48,8 +56,8 @@ class ProjectiveLookup {
   /// evaluating it at the point between them.
   glm::dvec3 homogeneous_pixel(const glm::dvec3& x_object) const {
     const double x = x_object.x, y = x_object.y, z = x_object.z;
-    return {u_[0] * x + u_[1] * y + u_[2] * z + u_[3], v_[0] * x + v_[1] * y + v_[2] * z + v_[3],
-            q_[0] * x + q_[1] * y + q_[2] * z + q_[3]};
+    const auto along = [&](const double(&t)[4]) { return t[0] * x + t[1] * y + t[2] * z + t[3]; };
+    return {along(terms_.u), along(terms_.v), along(terms_.q)};
   }
 
   /// The divide, the lens, the light planes and the border. Lit where near ≤ q ≤ far and, with Border::black,
@@ -60,24 +68,29 @@ class ProjectiveLookup {
     const double q = uq_vq_q.z;
     if (!(q > 0)) return {nan, nan, q, 0, Unlit::behind};
     const double inverse_q = 1 / q;
-    ProjectedPoint point{uq_vq_q.x * inverse_q, uq_vq_q.y * inverse_q, q, pinhole_area_, Unlit::lit};
+    ProjectedPoint point{uq_vq_q.x * inverse_q, uq_vq_q.y * inverse_q, q, terms_.pinhole_area, Unlit::lit};
     if (!pinhole_ && !warp(point)) return {nan, nan, q, 0, Unlit::lens};
-    const bool inside =
-        point.u_px >= -0.5 && point.u_px < width_ - 0.5 && point.v_px >= -0.5 && point.v_px < height_ - 0.5;
-    if (!inside && !clamp_) point.why = Unlit::outside;
-    if (q > far_m_) point.why = Unlit::beyond_far;
-    if (q < near_m_) point.why = Unlit::before_near;
+    const bool inside = point.u_px >= -0.5 && point.u_px < terms_.width - 0.5 && point.v_px >= -0.5 &&
+                        point.v_px < terms_.height - 0.5;
+    if (!inside && !terms_.clamp) point.why = Unlit::outside;
+    if (q > terms_.far_m) point.why = Unlit::beyond_far;
+    if (q < terms_.near_m) point.why = Unlit::before_near;
     return point;
   }
 
   ProjectedPoint project(const glm::dvec3& x_object) const { return divide(homogeneous_pixel(x_object)); }
 
- private:
-  bool warp(ProjectedPoint& point) const;  // pinhole pixel to the lens's; false where the lens fails
+  /// The same for many points at once: the terms, then, unless it is a pinhole, each point's warp.
+  const LookupTerms& terms() const { return terms_; }
+  bool is_pinhole() const { return pinhole_; }
 
-  double u_[4], v_[4], q_[4];
-  double near_m_, far_m_, width_, height_, pinhole_area_;
-  bool clamp_, pinhole_;
+  /// From the pinhole's u_px and v_px to the lens's, and its pixels_per_unit_area; false where the lens
+  /// fails.
+  bool warp(ProjectedPoint& point) const;
+
+ private:
+  LookupTerms terms_;
+  bool pinhole_;
   LensProjection lens_;
 };
 

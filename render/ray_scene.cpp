@@ -1,10 +1,14 @@
 #include "render/ray_scene.h"
 
+#include "render/tile_kernels.h"
 #include "sim/instruction_sets.h"
 
 #include <embree3/rtcore.h>
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <cstring>
 #include <limits>
 #include <stdexcept>
@@ -25,12 +29,6 @@ struct ReleaseGeometry {
 using DeviceHandle = std::unique_ptr<RTCDeviceTy, ReleaseDevice>;
 using SceneHandle = std::unique_ptr<RTCSceneTy, ReleaseScene>;
 using GeometryHandle = std::unique_ptr<RTCGeometryTy, ReleaseGeometry>;
-
-#ifdef LATERNA_PLAIN_THREADS  // for ThreadSanitizer, which cannot follow Embree's own threads
-constexpr const char* embree_threads = "threads=1,";
-#else
-constexpr const char* embree_threads = "";
-#endif
 
 // Embree calls this from its own code, through which no exception may pass: keep the first message for later.
 void remember(void* where, RTCError code, const char* message) {
@@ -65,17 +63,18 @@ struct RayScene::Embree {
     if (!error.empty()) throw std::runtime_error(error);
   }
   void open();
+  void intersect(RayPacket& rays, bool coherent) const;
+  std::uint32_t block(RayPacket& rays) const;
   void add(unsigned id, const std::vector<glm::dvec3>& world, const Mesh& mesh, const glm::dvec3& center);
 };
 
 void RayScene::Embree::open() {
-  device.reset(rtcNewDevice((embree_threads + embree_configuration()).c_str()));
+  device.reset(rtcNewDevice(embree_configuration().c_str()));
   if (!device) throw std::runtime_error("Embree: no device could be opened");
   rtcSetDeviceErrorFunction(device.get(), remember, &error);
   sixteen_wide = rtcGetDeviceProperty(device.get(), RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED) != 0;
   scene.reset(rtcNewScene(device.get()));
   check();
-  rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);  // no light between neighbouring triangles
   rtcSetSceneBuildQuality(scene.get(), RTC_BUILD_QUALITY_MEDIUM);
 }
 
@@ -118,70 +117,157 @@ RayScene::~RayScene() = default;
 RayScene::RayScene(RayScene&&) noexcept = default;
 RayScene& RayScene::operator=(RayScene&&) noexcept = default;
 
+RayPacket make_ray_packet() {
+  RayPacket rays{};
+  std::fill_n(rays.mask, packet_size, ~0u);
+  return rays;
+}
+
 namespace {
 
-// One half or the whole of a packet, in Embree's layout. Both widths keep their arrays in the same order.
-template <int Width, class Ray>
-void load(Ray& ray, const RayPacket& rays, int first) {
-  constexpr std::size_t bytes = Width * sizeof(float);
-  std::memcpy(ray.org_x, rays.origin_x + first, bytes);
-  std::memcpy(ray.org_y, rays.origin_y + first, bytes);
-  std::memcpy(ray.org_z, rays.origin_z + first, bytes);
-  std::memcpy(ray.dir_x, rays.direction_x + first, bytes);
-  std::memcpy(ray.dir_y, rays.direction_y + first, bytes);
-  std::memcpy(ray.dir_z, rays.direction_z + first, bytes);
-  std::memcpy(ray.tfar, rays.end + first, bytes);
-  for (int i = 0; i < Width; ++i) ray.tnear[i] = 0, ray.time[i] = 0, ray.mask[i] = ~0u, ray.flags[i] = 0;
+static_assert(no_hit == RTC_INVALID_GEOMETRY_ID);
+static_assert(offsetof(RayPacket, direction_x) == offsetof(RTCRay16, dir_x));
+static_assert(offsetof(RayPacket, end) == offsetof(RTCRay16, tfar));
+static_assert(offsetof(RayPacket, flags) == offsetof(RTCRay16, flags));
+static_assert(offsetof(RayPacket, triangle) == sizeof(RTCRay16) + offsetof(RTCHit16, primID));
+static_assert(offsetof(RayPacket, instance) == sizeof(RTCRay16) + offsetof(RTCHit16, instID));
+
+constexpr int half = packet_size / 2;
+
+// Copies 8 lanes of each of the first `Arrays` arrays of a packet: in Embree's layouts of either width they
+// come in the same order.
+template <int Arrays>
+void copy_half(const void* packet, int first, void* eight) {
+  const auto* from = static_cast<const float*>(packet) + first;
+  auto* to = static_cast<float*>(eight);
+  for (int k = 0; k < Arrays; ++k) std::memcpy(to + k * half, from + k * packet_size, half * sizeof(float));
+}
+template <int Arrays>
+void copy_back(const void* eight, int first, void* packet) {
+  const auto* from = static_cast<const float*>(eight);
+  auto* to = static_cast<float*>(packet) + first;
+  for (int k = 0; k < Arrays; ++k) std::memcpy(to + k * packet_size, from + k * half, half * sizeof(float));
+}
+constexpr int ray_arrays = sizeof(RTCRay16) / sizeof(float) / packet_size;
+constexpr int hit_arrays = sizeof(RTCRayHit16) / sizeof(float) / packet_size;
+
+// Turns every ray by about 2⁻²¹, another way each time.
+void turn(RayPacket& rays, int attempt) {
+  constexpr float ways[3][3] = {{1, -2, 3}, {-3, 1, -2}, {2, 3, -1}};
+  const float* way = ways[attempt];
+  for (int i = 0; i < packet_size; ++i) {
+    float &x = rays.direction_x[i], &y = rays.direction_y[i], &z = rays.direction_z[i];
+    const float step = 0x1p-22f * std::max({std::abs(x), std::abs(y), std::abs(z)});
+    x += way[0] * step, y += way[1] * step, z += way[2] * step;
+  }
+}
+constexpr int attempts = 3;
+
+void prepare(RayPacket& rays) {
+  std::fill_n(rays.begin, packet_size, 0.f);
+  std::fill_n(rays.time, packet_size, 0.f);
+  std::fill_n(rays.mask, packet_size, ~0u);
+  std::fill_n(rays.flags, packet_size, 0u);
 }
 
-template <int Width, class RayHit, class Intersect>
-void intersect(const Intersect& call, const RayPacket& rays, int first, HitPacket& hits) {
-  RayHit rayhit;
-  load<Width>(rayhit.ray, rays, first);
-  for (int i = 0; i < Width; ++i) rayhit.hit.geomID[i] = rayhit.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
-  call(rays.valid + first, rayhit);
-  std::memcpy(hits.t + first, rayhit.ray.tfar, Width * sizeof(float));
-  std::memcpy(hits.object + first, rayhit.hit.geomID, Width * sizeof(float));
-  std::memcpy(hits.triangle + first, rayhit.hit.primID, Width * sizeof(float));
-}
-
-// Embree sets tfar to -infinity where a ray is blocked.
-template <int Width, class Ray, class Occluded>
-std::uint32_t shadow(const Occluded& call, const RayPacket& rays, int first) {
-  Ray ray;
-  load<Width>(ray, rays, first);
-  call(rays.valid + first, ray);
-  std::uint32_t blocked = 0;
-  for (int i = 0; i < Width; ++i)
-    blocked |= std::uint32_t(rays.valid[first + i] != 0 && ray.tfar[i] < 0) << (first + i);
-  return blocked;
+std::uint32_t bits_of(const std::int32_t (&valid)[packet_size]) {
+  std::uint32_t bits = 0;
+  for (int i = 0; i < packet_size; ++i) bits |= std::uint32_t(valid[i] != 0) << i;
+  return bits;
 }
 
 }  // namespace
 
-void RayScene::first_hits(const RayPacket& rays, HitPacket& hits, bool coherent) const {
-  static_assert(no_hit == RTC_INVALID_GEOMETRY_ID);
-  RTCScene scene = embree_->scene.get();
+void RayScene::Embree::intersect(RayPacket& rays, bool coherent) const {
   RTCIntersectContext context = context_for(coherent);
-  if (embree_->sixteen_wide) {
-    const auto call = [&](const int* valid, RTCRayHit16& r) { rtcIntersect16(valid, scene, &context, &r); };
-    intersect<16, RTCRayHit16>(call, rays, 0, hits);
+  std::fill_n(rays.object, packet_size, no_hit);
+  std::fill_n(rays.triangle, packet_size, no_hit);
+  std::fill_n(rays.instance, packet_size, no_hit);
+  if (sixteen_wide) {
+    rtcIntersect16(rays.valid, scene.get(), &context, reinterpret_cast<RTCRayHit16*>(&rays));
     return;
   }
-  const auto call = [&](const int* valid, RTCRayHit8& r) { rtcIntersect8(valid, scene, &context, &r); };
-  intersect<8, RTCRayHit8>(call, rays, 0, hits);
-  intersect<8, RTCRayHit8>(call, rays, 8, hits);
+  for (const int first : {0, half}) {
+    RTCRayHit8 eight;
+    copy_half<hit_arrays>(&rays, first, &eight);
+    rtcIntersect8(rays.valid + first, scene.get(), &context, &eight);
+    copy_back<hit_arrays>(&eight, first, &rays);
+  }
 }
 
-std::uint32_t RayScene::occluded(const RayPacket& rays) const {
-  RTCScene scene = embree_->scene.get();
+// Embree sets tfar to -infinity where a ray is blocked.
+std::uint32_t RayScene::Embree::block(RayPacket& rays) const {
   RTCIntersectContext context = context_for(true);
-  if (embree_->sixteen_wide) {
-    const auto call = [&](const int* valid, RTCRay16& r) { rtcOccluded16(valid, scene, &context, &r); };
-    return shadow<16, RTCRay16>(call, rays, 0);
+  if (sixteen_wide) {
+    rtcOccluded16(rays.valid, scene.get(), &context, reinterpret_cast<RTCRay16*>(&rays));
+    return blocked_lanes(rays);
   }
-  const auto call = [&](const int* valid, RTCRay8& r) { rtcOccluded8(valid, scene, &context, &r); };
-  return shadow<8, RTCRay8>(call, rays, 0) | shadow<8, RTCRay8>(call, rays, 8);
+  for (const int first : {0, half}) {
+    RTCRay8 eight;
+    copy_half<ray_arrays>(&rays, first, &eight);
+    rtcOccluded8(rays.valid + first, scene.get(), &context, &eight);
+    copy_back<ray_arrays>(&eight, first, &rays);
+  }
+  return blocked_lanes(rays);
+}
+
+void RayScene::trace(RayPacket& rays, bool coherent) const {
+  float end[packet_size];
+  std::copy_n(rays.end, packet_size, end);
+  embree_->intersect(rays, coherent);
+  if (coherent && rays_disagree(rays)) close_gaps(rays, end);
+}
+
+void RayScene::close_gaps(RayPacket& rays, const float* end) const {
+  RayPacket again = rays;
+  for (int attempt = 0; attempt < attempts; ++attempt) {
+    std::copy_n(rays.direction_x, packet_size, again.direction_x);
+    std::copy_n(rays.direction_y, packet_size, again.direction_y);
+    std::copy_n(rays.direction_z, packet_size, again.direction_z);
+    std::copy_n(end, packet_size, again.end);
+    turn(again, attempt);
+    embree_->intersect(again, true);
+    bool found = false;
+    for (int i = 0; i < packet_size; ++i) {
+      if (again.object[i] == no_hit || !(again.end[i] < rays.end[i] * (1 - 1e-6f))) continue;
+      rays.object[i] = again.object[i], rays.triangle[i] = again.triangle[i], rays.end[i] = again.end[i];
+      found = true;
+    }
+    if (!found && attempt == 0) return;  // as it is at silhouettes
+  }
+}
+
+void RayScene::first_hits(const RayPacket& given, HitPacket& hits, bool coherent) const {
+  RayPacket rays = given;
+  prepare(rays);
+  trace(rays, coherent);
+  std::copy_n(rays.end, packet_size, hits.t);
+  std::copy_n(rays.object, packet_size, hits.object);
+  std::copy_n(rays.triangle, packet_size, hits.triangle);
+}
+
+std::uint32_t RayScene::trace_shadows(RayPacket& rays) const {
+  const std::uint32_t valid = bits_of(rays.valid);
+  if (valid == 0) return 0;
+  float end[packet_size];
+  std::copy_n(rays.end, packet_size, end);
+  std::uint32_t blocked = embree_->block(rays);
+  const bool agree = blocked == valid || (blocked == 0 && valid == 0xffff);
+  for (int attempt = 0; !agree && blocked != valid && attempt < attempts; ++attempt) {
+    RayPacket again = rays;
+    std::copy_n(end, packet_size, again.end);
+    turn(again, attempt);
+    const std::uint32_t found = embree_->block(again) & ~blocked;
+    if (found == 0 && attempt == 0) break;  // as it is at a shadow's edge
+    blocked |= found;
+  }
+  return blocked;
+}
+
+std::uint32_t RayScene::occluded(const RayPacket& given) const {
+  RayPacket rays = given;
+  prepare(rays);
+  return trace_shadows(rays);
 }
 
 }  // namespace laterna

@@ -1,6 +1,7 @@
 #include "render/surface.h"
 
 #include "render/albedo.h"
+#include "render/tile_kernels.h"
 #include "sim/parallel.h"
 
 #include <algorithm>
@@ -15,93 +16,120 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 // One tile of a camera's image while it is traced.
 struct Tile {
-  RayPacket rays;
+  int x0, y0, count_x, count_y;  // in the map; pixels inside it
+  TileRays directions;
   HitPacket hits;
-  glm::dvec2 direction[packet_size];  // x/z, y/z in the camera's frame
-  const LensPoints* lens;             // null: rays start at the camera's centre
-  glm::dvec2 start_m[packet_size];    // with a lens: x, y in the camera's frame
-  int count_x, count_y;               // pixels inside the image
 };
 
-// `first`: the place of the tile's first pixel among the lens's points, in rows of `stride`.
-void start_on_lens(Tile& tile, const CameraView& view, std::size_t first, int stride) {
+// `offsets_px`: null, or one per pixel of the map.
+void aim(Tile& tile, const CameraRays& directions, const SurfaceMap& map, const glm::vec2* offsets_px) {
+  const glm::ivec2 camera = map.first_px + glm::ivec2(tile.x0, tile.y0);
+  if (tile.count_x == tile_edge && tile.count_y == tile_edge && !offsets_px)
+    return directions.tile(camera, tile.directions.x, tile.directions.y);
+  for (int lane = 0; lane < packet_size; ++lane) {
+    const int i = lane % tile_edge, j = lane / tile_edge;
+    glm::dvec2 d(nan);
+    if (i < tile.count_x && j < tile.count_y)
+      d = offsets_px ? directions.direction(camera.x + i, camera.y + j,
+                                            offsets_px[map.object.index(tile.x0 + i, tile.y0 + j)])
+                     : directions.direction(camera.x + i, camera.y + j);
+    tile.directions.x[lane] = d.x, tile.directions.y[lane] = d.y;
+  }
+}
+
+// Moves the rays' starts to the lens, and turns them about where they meet in focus.
+void start_on_lens(Tile& tile, const CameraView& view, const SurfaceMap& map, const LensPoints& lens,
+                   RayPacket& packet) {
+  tile.directions.from_lens = true;
   for (int lane = 0; lane < packet_size; ++lane) {
     const int i = lane % tile_edge, j = lane / tile_edge;
     const bool inside = i < tile.count_x && j < tile.count_y;
-    const glm::dvec2 at = inside ? glm::dvec2(tile.lens->points_m[first + j * stride + i]) : glm::dvec2(0.0);
+    const glm::dvec2 at =
+        inside ? glm::dvec2(lens.points_m[map.object.index(tile.x0 + i, tile.y0 + j)]) : glm::dvec2(0.0);
     const glm::dvec3 start = view.camera_relative + view.world_from_device * glm::dvec3(at, 0.0);
-    tile.start_m[lane] = at;
-    tile.rays.origin_x[lane] = static_cast<float>(start.x);
-    tile.rays.origin_y[lane] = static_cast<float>(start.y);
-    tile.rays.origin_z[lane] = static_cast<float>(start.z);
+    tile.directions.start_x_m[lane] = at.x, tile.directions.start_y_m[lane] = at.y;
+    tile.directions.x[lane] -= at.x / lens.focus_m, tile.directions.y[lane] -= at.y / lens.focus_m;
+    packet.origin_x[lane] = static_cast<float>(start.x);
+    packet.origin_y[lane] = static_cast<float>(start.y);
+    packet.origin_z[lane] = static_cast<float>(start.z);
   }
 }
 
-// `offsets_px`: null, or that of the tile's first pixel, in rows of `stride`.
-void aim(Tile& tile, const CameraView& view, const CameraRays& directions, const glm::ivec2& first_px,
-         const glm::vec2* offsets_px, int stride) {
+// Planes are far apart in memory: they are asked for when the hit is known and used a row of tiles later.
+void fetch_planes_ahead(const HitPacket& hits, const RayScene& scene) {
+  for (int lane = 0; lane < packet_size; ++lane)
+    if (hits.object[lane] != no_hit) __builtin_prefetch(&scene.plane(hits.object[lane], hits.triangle[lane]));
+}
+
+void gather_planes(const Tile& tile, const RayScene& scene, TilePlanes& planes) {
   for (int lane = 0; lane < packet_size; ++lane) {
-    const int i = lane % tile_edge, j = lane / tile_edge, x = first_px.x + i, y = first_px.y + j;
-    glm::dvec2 d(nan);
-    if (i < tile.count_x && j < tile.count_y)
-      d = offsets_px ? directions.direction(x, y, offsets_px[j * stride + i]) : directions.direction(x, y);
-    if (tile.lens) d -= tile.start_m[lane] / tile.lens->focus_m;
-    const glm::dmat3& m = view.world_from_device;
-    tile.direction[lane] = d;
-    tile.rays.valid[lane] = d.x == d.x ? -1 : 0;
-    tile.rays.direction_x[lane] = static_cast<float>(m[0].x * d.x + m[1].x * d.y + m[2].x);
-    tile.rays.direction_y[lane] = static_cast<float>(m[0].y * d.x + m[1].y * d.y + m[2].y);
-    tile.rays.direction_z[lane] = static_cast<float>(m[0].z * d.x + m[1].z * d.y + m[2].z);
+    if (tile.hits.object[lane] == no_hit) continue;
+    const TrianglePlane& plane = scene.plane(tile.hits.object[lane], tile.hits.triangle[lane]);
+    planes.normal_x[lane] = plane.normal_object.x, planes.normal_y[lane] = plane.normal_object.y;
+    planes.normal_z[lane] = plane.normal_object.z, planes.distance[lane] = plane.distance;
   }
 }
 
-void write_miss(SurfaceMap& map, std::size_t p) {
-  map.object.values[p] = map.triangle.values[p] = no_hit;
-  map.point_object.values[p] = glm::dvec3(nan);
-  map.depth_m.values[p] = nan;
-  map.albedo.values[p] = 0;
-  map.seen_front.values[p] = 0;
+void refine_object(const Tile& tile, const TilePlanes& planes, const ObjectView& o, TileSurface& surface) {
+  refine_tile(o.object_from_device, o.camera_from_center, o.camera_object, tile.directions, planes,
+              tile.hits.t, surface);
 }
 
-void write_hit(SurfaceMap& map, std::size_t p, const ObjectView& object, const TrianglePlane& plane,
-               const glm::dvec2& d, const glm::dvec2* start_m, double embree_depth) {
-  const glm::dvec3 beside_object =
-      start_m ? object.object_from_device * glm::dvec3(*start_m, 0.0) : glm::dvec3(0.0);
-  const glm::dvec3 ray_object = object.object_from_device * glm::dvec3(d, 1.0);
-  const double slope = glm::dot(plane.normal_object, ray_object);
-  double depth =
-      (plane.distance - glm::dot(plane.normal_object, object.camera_from_center + beside_object)) / slope;
-  if (!(std::abs(depth - embree_depth) <= 1e-3 * embree_depth)) depth = embree_depth;
-  map.depth_m.values[p] = depth;
-  map.point_object.values[p] = object.camera_object + beside_object + depth * ray_object;
-  map.seen_front.values[p] = slope < 0;
-  map.albedo.values[p] = slope < 0 ? object.albedo : object.back_albedo;
+void copy_lane(const TileSurface& from, int lane, TileSurface& to) {
+  to.depth_m[lane] = from.depth_m[lane], to.slope[lane] = from.slope[lane];
+  to.x[lane] = from.x[lane], to.y[lane] = from.y[lane], to.z[lane] = from.z[lane];
 }
 
-void apply_albedo_map(SurfaceMap& map, std::size_t p, const Object& object, std::uint32_t triangle) {
-  const glm::dvec2 st = texture_coordinates_at(object.mesh, triangle, map.point_object.values[p]);
-  map.albedo.values[p] *= static_cast<float>(albedo_map_value(*object.albedo_map, st));
-}
-
-void write_tile(SurfaceMap& map, const Tile& tile, const CameraView& view, const RayScene& scene, int x0,
-                int y0) {
-  for (int j = 0; j < tile.count_y; ++j) {
-    for (int i = 0; i < tile.count_x; ++i) {
-      const int lane = j * tile_edge + i;
-      const std::size_t p = map.object.index(x0 + i, y0 + j);
-      const std::uint32_t id = tile.hits.object[lane], triangle = tile.hits.triangle[lane];
-      if (!tile.rays.valid[lane] || id == no_hit) {
-        write_miss(map, p);
-        continue;
-      }
-      map.object.values[p] = id;
-      map.triangle.values[p] = triangle;
-      const ObjectView& object = view.objects[id];
-      write_hit(map, p, object, scene.plane(id, triangle), tile.direction[lane],
-                tile.lens ? &tile.start_m[lane] : nullptr, tile.hits.t[lane]);
-      if (object.textured) apply_albedo_map(map, p, *object.textured, triangle);
+void refine(const Tile& tile, const TilePlanes& planes, const CameraView& view, TileSurface& surface) {
+  const std::uint32_t* object = tile.hits.object;
+  int first = 0;
+  while (first < packet_size && object[first] == no_hit) ++first;
+  if (first < packet_size) refine_object(tile, planes, view.objects[object[first]], surface);
+  for (int lane = 0; lane < packet_size; ++lane) {
+    if (object[lane] == no_hit) {
+      surface.depth_m[lane] = surface.x[lane] = surface.y[lane] = surface.z[lane] = nan;
+      surface.slope[lane] = 0;
+    } else if (object[lane] != object[first]) {
+      TileSurface other;
+      refine_object(tile, planes, view.objects[object[lane]], other);
+      copy_lane(other, lane, surface);
     }
   }
+}
+
+float albedo_of(const Tile& tile, int lane, const TileSurface& surface, const CameraView& view) {
+  const std::uint32_t id = tile.hits.object[lane];
+  if (id == no_hit) return 0;
+  const ObjectView& object = view.objects[id];
+  const float albedo = surface.slope[lane] < 0 ? object.albedo : object.back_albedo;
+  if (!object.textured) return albedo;
+  const glm::dvec2 st = texture_coordinates_at(object.textured->mesh, tile.hits.triangle[lane],
+                                               {surface.x[lane], surface.y[lane], surface.z[lane]});
+  return albedo * static_cast<float>(albedo_map_value(*object.textured->albedo_map, st));
+}
+
+void write_tile(SurfaceMap& map, const Tile& tile, const TileSurface& surface, const CameraView& view) {
+  for (int j = 0; j < tile.count_y; ++j) {
+    const int first = j * tile_edge;
+    const std::size_t p = map.object.index(tile.x0, tile.y0 + j);
+    copy_row(tile.hits.object + first, tile.count_x, &map.object.values[p]);
+    copy_row(tile.hits.triangle + first, tile.count_x, &map.triangle.values[p]);
+    copy_row(surface.depth_m + first, tile.count_x, &map.depth_m.values[p]);
+    for (int i = 0; i < tile.count_x; ++i) {
+      const int lane = first + i;
+      map.point_object.values[p + i] = {surface.x[lane], surface.y[lane], surface.z[lane]};
+      map.seen_front.values[p + i] = surface.slope[lane] < 0;
+      map.albedo.values[p + i] = albedo_of(tile, lane, surface, view);
+    }
+  }
+}
+
+RayPacket packet_from(const CameraView& view) {
+  RayPacket rays = make_ray_packet();
+  std::fill_n(rays.origin_x, packet_size, static_cast<float>(view.camera_relative.x));
+  std::fill_n(rays.origin_y, packet_size, static_cast<float>(view.camera_relative.y));
+  std::fill_n(rays.origin_z, packet_size, static_cast<float>(view.camera_relative.z));
+  return rays;
 }
 
 }  // namespace
@@ -131,21 +159,29 @@ SurfaceMap make_surface_map(const PixelRegion& region) {
 
 void trace_surface_tiles(const RayScene& rays, const CameraView& view, const CameraRays& directions,
                          int tile_row, SurfaceMap& map, const glm::vec2* offsets_px, const LensPoints* lens) {
-  const int y0 = tile_row * tile_edge;
-  Tile tile;
-  tile.lens = lens;
-  std::fill_n(tile.rays.origin_x, packet_size, static_cast<float>(view.camera_relative.x));
-  std::fill_n(tile.rays.origin_y, packet_size, static_cast<float>(view.camera_relative.y));
-  std::fill_n(tile.rays.origin_z, packet_size, static_cast<float>(view.camera_relative.z));
-  std::fill_n(tile.rays.end, packet_size, std::numeric_limits<float>::infinity());
-  tile.count_y = std::min(tile_edge, map.height - y0);
-  for (int x0 = 0; x0 < map.width; x0 += tile_edge) {
-    tile.count_x = std::min(tile_edge, map.width - x0);
-    const glm::vec2* offsets = offsets_px ? offsets_px + map.object.index(x0, y0) : nullptr;
-    if (lens) start_on_lens(tile, view, map.object.index(x0, y0), map.width);
-    aim(tile, view, directions, map.first_px + glm::ivec2(x0, y0), offsets, map.width);
-    rays.first_hits(tile.rays, tile.hits);
-    write_tile(map, tile, view, rays, x0, y0);
+  RayPacket packet = packet_from(view);
+  std::vector<Tile> tiles((map.width + tile_edge - 1) / tile_edge);
+  for (std::size_t k = 0; k < tiles.size(); ++k) {
+    Tile& tile = tiles[k];
+    tile.x0 = int(k) * tile_edge, tile.y0 = tile_row * tile_edge;
+    tile.count_x = std::min(tile_edge, map.width - tile.x0);
+    tile.count_y = std::min(tile_edge, map.height - tile.y0);
+    aim(tile, directions, map, offsets_px);
+    if (lens) start_on_lens(tile, view, map, *lens, packet);
+    aim_tile(view.world_from_device, tile.directions, packet);
+    std::fill_n(packet.end, packet_size, std::numeric_limits<float>::infinity());
+    rays.trace(packet);
+    std::copy_n(packet.end, packet_size, tile.hits.t);
+    std::copy_n(packet.object, packet_size, tile.hits.object);
+    std::copy_n(packet.triangle, packet_size, tile.hits.triangle);
+    fetch_planes_ahead(tile.hits, rays);
+  }
+  TilePlanes planes{};
+  TileSurface surface;
+  for (const Tile& tile : tiles) {
+    gather_planes(tile, rays, planes);
+    refine(tile, planes, view, surface);
+    write_tile(map, tile, surface, view);
   }
 }
 
@@ -164,11 +200,13 @@ SurfaceMap trace_surface(const RayScene& rays, const Scene& scene, const Camera&
 
 PixelArray<glm::dvec3> points_world(const SurfaceMap& surface, const Scene& scene) {
   PixelArray<glm::dvec3> points(surface.width, surface.height);
-  for (std::size_t p = 0; p < points.values.size(); ++p) {
-    points.values[p] = surface.hit(p) ? glm::dvec3(scene.objects[surface.object.values[p]].world_from_object *
-                                                   glm::dvec4(surface.point_object.values[p], 1.0))
-                                      : glm::dvec3(nan);
-  }
+  parallel_for(surface.height, [&](std::size_t y) {
+    for (std::size_t p = y * surface.width; p < (y + 1) * surface.width; ++p)
+      points.values[p] = surface.hit(p)
+                             ? glm::dvec3(scene.objects[surface.object.values[p]].world_from_object *
+                                          glm::dvec4(surface.point_object.values[p], 1.0))
+                             : glm::dvec3(nan);
+  });
   return points;
 }
 

@@ -1,5 +1,7 @@
 #include "tests/testing.h"
 
+#include "sim/instruction_sets.h"
+
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -47,5 +49,17 @@ std::filesystem::path write_text(const std::filesystem::path& path, const std::s
   std::ofstream(path, std::ios::binary) << text;
   return path;
 }
+
+std::vector<std::string> instruction_sets_here() {
+  const CapLifter lifter;
+  std::vector<std::string> here;
+  for (const std::string& name : instruction_set_names()) {
+    cap_instruction_set(name);
+    if (instruction_set() == name) here.push_back(name);
+  }
+  return here;
+}
+
+CapLifter::~CapLifter() { cap_instruction_set(""); }
 
 }  // namespace laterna::testing

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <random>
 #include <string>
+#include <vector>
 
 namespace laterna::testing {
 
@@ -31,6 +32,15 @@ class ScratchFolder {
 
 /// Writes a text file and returns its path.
 std::filesystem::path write_text(const std::filesystem::path& path, const std::string& text);
+
+/// The names of the instruction sets that this machine has, without those that do the same as a narrower one;
+/// the caller sees to it that the cap is lifted in the end (CapLifter).
+std::vector<std::string> instruction_sets_here();
+
+/// Lifts the cap on the instruction set when it goes.
+struct CapLifter {
+  ~CapLifter();
+};
 
 /// The message of the InputError that `action` throws; fails the test where it throws none.
 template <class Action>

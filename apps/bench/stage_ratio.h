@@ -21,9 +21,8 @@ std::string describe(const BareWay& way);
 
 /// Median seconds over `repeats`.
 struct VisibilityTimes {
-  double visibility =
-      0;  ///< trace_surface and trace_light: camera rays, hits refined in double, projection, shadow
-  double surface = 0, light = 0;  ///< its two halves
+  double visibility = 0;  ///< camera rays, hits refined in double, projection, shadow, region by region as in
+                          ///< laterna capture, into the maps that rows are made of
   double bare = 0;   ///< the same camera rays and the same shadow rays, ready in memory, and nothing else
   double rays = 0;   ///< how many: camera rays and shadow rays
   double ratio = 0;  ///< median of visibility/bare within each repeat

@@ -2,6 +2,7 @@
 
 #include "render/effects/apply_effects.h"
 #include "sim/error.h"
+#include "sim/parallel.h"
 
 #include <fmt/format.h>
 
@@ -43,6 +44,7 @@ void judge(const Scene& scene, const Traced& traced, const Correspondences& corr
           fmt::format("noise predicts {:.3g} px over the volume, above the tolerance of {:.3g} px", predicted,
                       solve_options.tolerance_px);
     }
+    outcome.surface_error_px.reserve(points.size());
     for (const glm::dvec2& e : error_vectors(truth, outcome.solve.estimate, points)) {
       outcome.surface_error_px.push_back(float(glm::length(e)));
     }
@@ -72,19 +74,32 @@ std::vector<glm::dvec3> lit_points(const Traced& traced, int projector) {
 
 void append_correspondences(const DecodedMap& decoded, const PixelArray<glm::dvec3>& points_world, int camera,
                             int block_px, Correspondences& out) {
-  const std::uint32_t columns = std::uint32_t((points_world.width + block_px - 1) / block_px);
-  const std::uint32_t blocks = columns * std::uint32_t((points_world.height + block_px - 1) / block_px);
-  for (int y = 0; y < points_world.height; ++y) {
-    for (int x = 0; x < points_world.width; ++x) {
-      const std::size_t i = points_world.index(x, y);
-      if (!decoded.valid.values[i] || std::isnan(points_world.values[i].x)) continue;
-      out.world_points.push_back(points_world.values[i]);
-      out.projector_pixels.emplace_back(decoded.u_px.values[i], decoded.v_px.values[i]);
-      out.sigma_px.push_back(decoded.sigma_px.values[i]);
-      out.cluster.push_back(std::uint32_t(camera) * blocks + std::uint32_t(y / block_px) * columns +
-                            std::uint32_t(x / block_px));
-    }
+  const int width = points_world.width, height = points_world.height;
+  const std::uint32_t columns = std::uint32_t((width + block_px - 1) / block_px);
+  const std::uint32_t blocks = columns * std::uint32_t((height + block_px - 1) / block_px);
+  const auto usable = [&](std::size_t i) {
+    return decoded.valid.values[i] && !std::isnan(points_world.values[i].x);
+  };
+  std::vector<std::size_t> first(height + 1, out.world_points.size());  // where each image row's stand
+  for (int y = 0; y < height; ++y) {
+    first[y + 1] = first[y];
+    for (int x = 0; x < width; ++x) first[y + 1] += usable(points_world.index(x, y));
   }
+  out.world_points.resize(first.back()), out.projector_pixels.resize(first.back());
+  out.sigma_px.resize(first.back()), out.cluster.resize(first.back());
+  parallel_for(height, [&](std::size_t row) {
+    const int y = int(row);
+    std::size_t k = first[row];
+    for (int x = 0; x < width; ++x) {
+      const std::size_t i = points_world.index(x, y);
+      if (!usable(i)) continue;
+      out.world_points[k] = points_world.values[i];
+      out.projector_pixels[k] = {decoded.u_px.values[i], decoded.v_px.values[i]};
+      out.sigma_px[k] = decoded.sigma_px.values[i];
+      out.cluster[k++] = std::uint32_t(camera) * blocks + std::uint32_t(y / block_px) * columns +
+                         std::uint32_t(x / block_px);
+    }
+  });
 }
 
 DecodedMap true_map(const LightMap& light) {

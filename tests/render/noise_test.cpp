@@ -47,7 +47,7 @@ TEST(RandomWords, AreThoseOfThePublishedGenerator) {
   const Words words = words_of(key, NoiseStream::shot, 0xffffffe0, 77);
   for (std::uint32_t i = 0; i < noise_pixels; ++i) {
     const auto published =
-        r123::Threefry4x32_R<16>()({{0xffffffe0 + i, 77, 1, 0}}, {{0x9abcdef0, 0x12345678, 3, 4}});
+        r123::Threefry4x32_R<12>()({{0xffffffe0 + i, 77, 1, 0}}, {{0x9abcdef0, 0x12345678, 3, 4}});
     for (int j = 0; j < 4; ++j) ASSERT_EQ(words[j * noise_pixels + i], published[j]);
   }
 }
