@@ -25,8 +25,9 @@ using TileFloats = float[packet_size];
 /// The rays of a tile: x/z and y/z in the camera's frame, NaN where there is none.
 struct alignas(64) TileRays {
   TileDoubles x, y;
-  bool from_lens = false;            ///< whether they start beside the camera's centre:
-  TileDoubles start_x_m, start_y_m;  ///< there, in the camera's plane z = 0
+  TileDoubles start_x_m,
+      start_y_m;           ///< where they start, in the camera's plane z = 0; read where `from_lens`
+  bool from_lens = false;  ///< whether they start beside the camera's centre
 };
 
 /// The planes that a tile's rays meet: normal·(x - center_object) = distance in the object's frame.

@@ -140,6 +140,8 @@ Bits tile_bits() {
     TileLight light;
     RayPacket rays = make_ray_packet();
     fill(directions.x, 0), fill(directions.y, 0);
+    fill(directions.start_x_m, 0), fill(directions.start_y_m, 0);
+    directions.from_lens = k % 3 == 0;
     fill(planes.normal_x, 0), fill(planes.normal_y, 0), fill(planes.normal_z, 0), fill(planes.distance, 2);
     TileFloats depth;
     for (float& t : depth) t = float(2 + any(random));
