@@ -1,10 +1,8 @@
 #include "apps/lab/render_picture.h"
 
 #include "render/bake.h"
-#include "render/effects/apply_effects.h"
+#include "render/effects/camera_show.h"
 #include "render/effects/scaler.h"
-#include "render/effects/slide.h"
-#include "render/exposure.h"
 #include "render/replay.h"
 #include "render/trace_rows.h"
 #include "sim/error.h"
@@ -14,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 namespace laterna {
 
@@ -65,18 +64,24 @@ Image<float> picture_or_white(const std::filesystem::path& file, const glm::ivec
   return picture;
 }
 
-PatternStack shown_by_projector(const Selected& selected, const std::filesystem::path& file) {
-  const glm::ivec2 size = input_size(selected.scene.effects, selected.source());
-  const Slide slide{picture_or_white(file, size, "projector"), true};
-  PatternStack patterns = make_slide_stack({&slide, 1}, size);
-  apply_effects(patterns, selected.scene, selected.source());
-  return patterns;
+// The scene with one picture in place of its patterns. A single picture has no neighbours in time.
+Scene showing(const Selected& selected, const std::filesystem::path& file) {
+  Scene playing = selected.scene;
+  const glm::ivec2 size = input_size(playing.effects, selected.source());
+  playing.slide = std::make_shared<const Slide>(Slide{picture_or_white(file, size, "projector"), true, {}});
+  playing.pictures = nullptr;
+  playing.patterns.kind = PatternKind::slide;
+  playing.effects.slide = true;
+  playing.effects.timing = false;
+  return playing;
 }
 
 Image<float> photograph_cd_per_m2(const Selected& selected, const RenderOptions& options,
                                   const std::filesystem::path& show) {
-  const PatternStack patterns = shown_by_projector(selected, show);
-  const auto stack = play_luminance(selected.rows(options), selected.source().lookup, patterns);
+  const Scene playing = showing(selected, show);
+  const CameraShow played =
+      make_camera_show(playing, selected.camera, selected.projector, selected.rows(options));
+  const auto stack = play_luminance(played.rows, selected.source().lookup, played.show());
   Image<float> picture(stack.width, stack.height);
   std::copy(stack.values.begin(), stack.values.end(), picture.values.begin());
   return picture;
@@ -85,15 +90,11 @@ Image<float> photograph_cd_per_m2(const Selected& selected, const RenderOptions&
 // As the camera's sensor delivers it.
 void write_photograph(const Selected& selected, const RenderOptions& options,
                       const std::filesystem::path& target, StageTimes& times) {
-  const PatternStack patterns = shown_by_projector(selected, options.show);
   const double saturation =
       saturation_cd_per_m2(selected.scene, selected.rig, selected.camera, selected.projector, times);
-  const Exposure exposure =
-      make_exposure(selected.scene.cameras[selected.camera].sensor, saturation,
-                    {options.seed, std::uint32_t(selected.camera), std::uint32_t(selected.projector)});
-  const CapturedStack stack = times.measure("capture", [&] {
-    return play_stack(selected.rows(options), selected.source().lookup, patterns, exposure);
-  });
+  const CapturedStack stack =
+      capture_rows(showing(selected, options.show), selected.camera, selected.projector,
+                   selected.rows(options), saturation, options.seed, times);
   std::visit(
       [&](const auto& pictures) {
         using Value = typename std::decay_t<decltype(pictures)>::value_type;

@@ -29,11 +29,12 @@ struct RenderOptions {
   std::uint64_t seed = 1;
 };
 
-/// Renders into `target`. A float format (EXR) holds numbers: photo luminance in cd/m², dual Aᵀ·y in cd/m²
-/// (the sum over camera pixels y in [0, 1]), bake what the photograph holds. Others hold the photograph as
-/// the camera's sensor exposes it, and dual and bake in 8 bits so that the 99.9th percentile of what is not
-/// black stands at 80 % of the scale. A bake's EXR has a second channel, 1 where covered. Throws InputError
-/// for a name that the scene does not have, a picture of the wrong size, or a target that cannot be written.
+/// Renders into `target`; timing is off, since one picture has no neighbours. A float format (EXR) holds
+/// numbers: photo luminance in cd/m², dual Aᵀ·y in cd/m² (the sum over camera pixels y in [0, 1]), bake what
+/// the photograph holds. Others hold the photograph as the camera's sensor exposes it, and dual and bake in 8
+/// bits so that the 99.9th percentile of what is not black stands at 80 % of the scale. A bake's EXR has a
+/// second channel, 1 where covered. Throws InputError for a name that the scene does not have, a picture of
+/// the wrong size, or a target that cannot be written.
 void render_picture(const Scene& scene, const RenderOptions& options, const std::filesystem::path& target,
                     StageTimes& times);
 

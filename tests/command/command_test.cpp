@@ -197,7 +197,8 @@ TEST(Command, EveryFamilyIsShownAndReadBack) {
         laterna("decode " + folder + " --projector-size 160x100 --json " + words, scratch.path());
     ASSERT_EQ(run.exit_code, 0) << run.err;
     const json sequence = json::parse(run.out).at("sequences").at(0);
-    EXPECT_GT(sequence.at("valid_percent"), 99) << words;  // a crest at full scale leaves three of four steps
+    // A crest at full scale leaves three of four steps; micro phase shifting has one picture to lose.
+    EXPECT_GT(sequence.at("valid_percent"), 98) << words;
     EXPECT_EQ(sequence.at("orientation"), "upright") << words;
   }
   EXPECT_EQ(laterna("patterns --size 64x48 -o q --kind phase --steps 2", scratch.path()).exit_code, 2);

@@ -13,8 +13,8 @@ using testing::device_at;
 using testing::object_of;
 using testing::scene_of;
 
-constexpr int width = 80, height = 60;
-constexpr double focal_px = 100, edge_px = 41.3;
+constexpr int width = 24, height = 60;
+constexpr double focal_px = 100, edge_px = 13.3;
 
 // A plane at depth z that ends at column edge_px, focus at 2 m.
 Scene half_plane(double z) {
