@@ -20,7 +20,7 @@ bool rays_disagree(const RayPacket& rays);
 std::uint32_t blocked_lanes(const RayPacket& rays);
 
 using TileDoubles = double[packet_size];
-using TileFloats = float[packet_size];
+using TileFloats = float[packet_size];  // to be aligned to 64 bytes, as all arrays of a tile
 
 /// The rays of a tile: x/z and y/z in the camera's frame, NaN where there is none.
 struct alignas(64) TileRays {

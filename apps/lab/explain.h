@@ -16,8 +16,9 @@ struct EffectCost {
   std::string name, stage;
   bool on = false;               ///< in the scene
   double entries_per_pixel = 0;  ///< of the rows, over all camera pixels, with the effect on
-  double seconds = 0;  ///< of tracing and capture, more with it than without, each the median of three runs;
-                       ///< 0 where it is within noise
+  double seconds =
+      0;  ///< of tracing and capture, more with it than without, both measured in turn: the median
+          ///< of three rounds (one where a capture takes over a second); 0 where it is within noise
   double max_dn = 0, rms_dn = 0;        ///< over all pixels of all pictures
   double max_uv_px = 0, rms_uv_px = 0;  ///< |Δ(u, v)| of the decoded map, where both decode
 };

@@ -143,7 +143,7 @@ Bits tile_bits() {
     fill(directions.start_x_m, 0), fill(directions.start_y_m, 0);
     directions.from_lens = k % 3 == 0;
     fill(planes.normal_x, 0), fill(planes.normal_y, 0), fill(planes.normal_z, 0), fill(planes.distance, 2);
-    TileFloats depth;
+    alignas(64) TileFloats depth;
     for (float& t : depth) t = float(2 + any(random));
     aim_tile(m, directions, rays);
     append(bits, rays.direction_x), append(bits, rays.valid);
