@@ -88,8 +88,9 @@ int picture_count(const PatternSequence& sequence);
 /// For people: "column bit 9 inverse", "row fringe of 32 px, step 2", "board", "white", "black".
 std::string picture_name(const PatternSequence& sequence, int k);
 
-/// Picture k, 0 to 255 per projector pixel. A fringe shows round(127.5·(1 + cos(2π·x/pitch + 2π·j/steps))), halves up, in
-/// its step j at column (or row) x. Throws InputError for k out of range, and as validate() does.
+/// Picture k, 0 to 255 per projector pixel. A fringe shows round(127.5·(1 + cos(2π·x/pitch + 2π·j/steps))),
+/// halves up, in its step j at column (or row) x. Throws InputError for k out of range, and as validate()
+/// does.
 Image<std::uint8_t> pattern_picture(const PatternSequence& sequence, int k);
 
 /// The whole sequence: equal to pattern_picture for each k.
