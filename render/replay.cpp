@@ -262,6 +262,7 @@ void play_region(const LightRows& rows, const Play& play, const Exposure& exposu
     stream_rows(reinterpret_cast<const std::byte*>(stage.values.data()), width * sizeof(Number),
                 width * sizeof(Number), pictures, reinterpret_cast<std::byte*>(to), plane * sizeof(Number));
   }
+  finish_streams();
 }
 
 CapturedStack make_stack(const glm::ivec2& size, int count, const Exposure& exposure) {

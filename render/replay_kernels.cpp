@@ -193,7 +193,6 @@ void stream_rows(const std::byte* from, std::size_t from_stride, std::size_t byt
     auto* target = reinterpret_cast<std::uint8_t*>(to);
     for (std::size_t i = 0; i < bytes; i += lanes) hn::Stream(hn::LoadU(d, source + i), d, target + i);
   }
-  hwy::FlushStream();
 }
 
 }  // namespace
@@ -243,6 +242,8 @@ void stream_rows(const std::byte* from, std::size_t from_stride, std::size_t byt
                  std::size_t to_stride) {
   HWY_DYNAMIC_DISPATCH(stream_rows)(from, from_stride, bytes, count, to, to_stride);
 }
+
+void finish_streams() { hwy::FlushStream(); }
 
 }  // namespace laterna
 #endif

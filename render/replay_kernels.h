@@ -66,4 +66,8 @@ void expand_bits(const std::uint64_t* codes, const std::uint16_t* off, const std
 void stream_rows(const std::byte* from, std::size_t from_stride, std::size_t bytes, int count, std::byte* to,
                  std::size_t to_stride);
 
+/// Makes what this thread has streamed visible to others; once, after the last stream_rows: until then the
+/// stores drain while the next row is made.
+void finish_streams();
+
 }  // namespace laterna
