@@ -14,6 +14,8 @@ namespace laterna {
 namespace {
 
 constexpr int block = block_pixels;
+static_assert(sizeof(LightEntry) == 4 * sizeof(double) && offsetof(LightEntry, weight) == 2 * sizeof(double),
+              "as nearest_codes() reads it");
 
 struct Play {
   Lookup lookup;
@@ -208,12 +210,19 @@ void expand_block(const Block& b, const Play& play, const Exposure& exposure, Pl
   alignas(64) std::uint64_t codes[block] = {};
   alignas(64) float levels[2 * block] = {};
   alignas(64) Number dn[2 * block];
-  for (int i = 0; i < b.pixels; ++i) {
+  for (int i = 0; i < b.pixels; ++i)
     levels[i] = levels[block + i] = static_cast<float>(play.scale * b.ambient[i]);
-    if (b.begin[i] == b.begin[i + 1]) continue;
-    const LightEntry& entry = b.entries[b.begin[i]];
-    levels[block + i] += gain_of(entry, play) * 255.0f;
-    codes[i] = nearest_code(entry, patterns);
+  if (b.pixels == block && b.begin[block] - b.begin[0] == block) {
+    nearest_codes({&b.entries[b.begin[0]].u_px, play.scale / 255},
+                  {patterns.width, patterns.height, patterns.column_codes.data(), patterns.row_codes.data()},
+                  codes, levels + block);
+  } else {
+    for (int i = 0; i < b.pixels; ++i) {
+      if (b.begin[i] == b.begin[i + 1]) continue;
+      const LightEntry& entry = b.entries[b.begin[i]];
+      levels[block + i] += gain_of(entry, play) * 255.0f;
+      codes[i] = nearest_code(entry, patterns);
+    }
   }
   expose(exposure, std::uint32_t(b.first), 2, levels, dn);
   expand_bits(codes, dn, dn + block, b.pixels, patterns.count, out);
@@ -223,9 +232,9 @@ bool has_two_levels(const Block& b, const Play& play, const Exposure& exposure) 
   if (!play.show.binary() || play.show.sources.size() > 1 || play.show.timeline.frames_of_row ||
       play.lookup != Lookup::nearest || exposure.noise_sigma_dn > 0 || exposure.electrons)
     return false;
-  for (int i = 0; i < b.pixels; ++i)
-    if (b.begin[i + 1] - b.begin[i] > 1) return false;
-  return true;
+  bool several = false;
+  for (int i = 0; i < b.pixels; ++i) several |= b.begin[i + 1] - b.begin[i] > 1;
+  return !several;
 }
 
 // Calls play_block(b, x) for the blocks of row y of a region; x is the first pixel's place in the row.

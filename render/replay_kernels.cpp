@@ -148,6 +148,33 @@ LATERNA_SUM_TAPS(TableTap, sum_table)
 LATERNA_SUM_TAPS(BitTap, sum_bits)
 #undef LATERNA_SUM_TAPS
 
+using Doubles = hn::CappedTag<double, 8>;
+
+// floor(x + 1/2), clamped to the picture.
+HWY_INLINE hn::Vec<hn::RebindToSigned<Doubles>> texel_of(hn::Vec<Doubles> at, int size) {
+  const Doubles d;
+  const auto inside =
+      hn::Min(hn::Max(hn::Add(at, hn::Set(d, 0.5)), hn::Zero(d)), hn::Set(d, double(size - 1)));
+  return hn::PromoteTo(hn::RebindToSigned<Doubles>(),
+                       hn::DemoteTo(hn::Rebind<std::int32_t, Doubles>(), inside));
+}
+
+void nearest_codes(const BlockEntries& entries, const CodePicture& picture, std::uint64_t* codes,
+                   float* white) {
+  const Doubles d;
+  const hn::RebindToUnsigned<Doubles> words;
+  const hn::Rebind<float, Doubles> f;
+  for (std::size_t i = 0; i < block; i += hn::Lanes(d)) {
+    hn::Vec<Doubles> u, v, weight, rest;
+    hn::LoadInterleaved4(d, entries.first + 4 * i, u, v, weight, rest);
+    const auto column = hn::GatherIndex(words, picture.column_codes, texel_of(u, picture.width));
+    const auto row = hn::GatherIndex(words, picture.row_codes, texel_of(v, picture.height));
+    hn::StoreU(hn::Or(column, row), words, codes + i);
+    const auto gain = hn::DemoteTo(f, hn::Mul(hn::Set(d, entries.scale), weight));
+    hn::StoreU(hn::Add(hn::LoadU(f, white + i), hn::Mul(gain, hn::Set(f, 255.0f))), f, white + i);
+  }
+}
+
 // The codes are cut into bytes first, so that 8 pictures share one load of them.
 template <class Number>
 HWY_INLINE void expand_block(const std::uint64_t* codes, const Number* off, const Number* on, int pixels,
@@ -207,6 +234,7 @@ HWY_EXPORT(sum_bilinear);
 HWY_EXPORT(sum_nearest);
 HWY_EXPORT(sum_table);
 HWY_EXPORT(sum_bits);
+HWY_EXPORT(nearest_codes);
 HWY_EXPORT(expand_bits_8);
 HWY_EXPORT(expand_bits_16);
 HWY_EXPORT(stream_rows);
@@ -227,6 +255,11 @@ void sum_taps(const TableTap* taps, const std::uint32_t* first, const float* bas
 void sum_taps(const BitTap* taps, const std::uint32_t* first, const float* base, int pixels, int count,
               float* scratch, float* levels) {
   HWY_DYNAMIC_DISPATCH(sum_bits)(taps, first, base, pixels, count, scratch, levels);
+}
+
+void nearest_codes(const BlockEntries& entries, const CodePicture& picture, std::uint64_t* codes,
+                   float* white) {
+  HWY_DYNAMIC_DISPATCH(nearest_codes)(entries, picture, codes, white);
 }
 
 void expand_bits(const std::uint64_t* codes, const std::uint8_t* off, const std::uint8_t* on, int pixels,

@@ -48,6 +48,22 @@ void sum_taps(const BitTap* taps, const std::uint32_t* first, const float* base,
               float* scratch, float* levels);
 constexpr int padded(int count) { return (count + 15) / 16 * 16; }
 
+/// One entry of light for each pixel of a whole block (LightEntry: u_px, v_px, weight and 8 bytes more).
+struct BlockEntries {
+  const double* first;
+  double scale;  ///< gain = single precision of scale·weight
+};
+
+/// Codes of a width×height picture: column_codes[x] | row_codes[y].
+struct CodePicture {
+  int width, height;
+  const std::uint64_t *column_codes, *row_codes;
+};
+
+/// codes[i]: that of the texel whose box holds entry i (nearest_texel); white[i] += 255·gain. 64 each.
+void nearest_codes(const BlockEntries& entries, const CodePicture& picture, std::uint64_t* codes,
+                   float* white);
+
 /// Pictures of equal size, one after the other: picture k's pixel is at first[k·stride].
 template <class Number>
 struct Planes {

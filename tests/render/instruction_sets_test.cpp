@@ -118,6 +118,14 @@ Bits replay_bits() {
     std::vector<std::uint8_t> out(std::size_t(count) * block_pixels);
     expand_bits(codes.data(), off.data(), on.data(), block_pixels, count, {out.data(), block_pixels});
     append(bits, out);
+    std::array<double, 4 * block_pixels> entries{};
+    std::array<float, block_pixels> white{};
+    std::vector<std::uint64_t> columns(30), rows(20);
+    for (auto& e : entries) e = 35 * share(random) - 2;
+    for (auto& c : columns) c = random();
+    for (auto& r : rows) r = random();
+    nearest_codes({entries.data(), 0.3}, {30, 20, columns.data(), rows.data()}, codes.data(), white.data());
+    append(bits, codes), append(bits, white);
   }
   return bits;
 }
