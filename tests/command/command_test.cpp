@@ -159,9 +159,9 @@ TEST(Command, EveryPictureFormatKeepsWhatIsDecoded) {
   std::string expected;
   for (const std::string format : {"png", "tif", "exr", "tif-pages"}) {
     const auto capture =
-        laterna("capture s.toml --no-truth -o " + format + " --format " + format, scratch.path());
+        laterna(fmt::format("capture s.toml --no-truth -o {0} --format {0}", format), scratch.path());
     ASSERT_EQ(capture.exit_code, 0) << capture.err;
-    ASSERT_EQ(laterna("decode " + format + " -o " + format + "_map", scratch.path()).exit_code, 0);
+    ASSERT_EQ(laterna(fmt::format("decode {0} -o {0}_map", format), scratch.path()).exit_code, 0);
     const std::string map = testing::read_text(scratch / (format + "_map/cam_left.exr"));
     if (expected.empty()) expected = map;
     EXPECT_TRUE(map == expected) << format;
@@ -232,7 +232,8 @@ std::string board_table(int poses) {
     const double about = 1.3 * pose, tilt = 0.5, c = std::cos(tilt), s = std::sin(tilt);
     const double ax = std::cos(about), ay = std::sin(about);
     for (int corner = 0; corner < 20; ++corner) {
-      const double bx = 0.1 * (corner % 5), by = 0.1 * (corner / 5), x = bx - 0.2, y = by - 0.15;
+      const int row = corner / 5;
+      const double bx = 0.1 * (corner % 5), by = 0.1 * row, x = bx - 0.2, y = by - 0.15;
       const double along = ax * x + ay * y;  // Rodrigues' formula about (ax, ay, 0)
       const double px = c * x + (1 - c) * along * ax + 0.05 * (pose % 3 - 1);
       const double py = c * y + (1 - c) * along * ay + 0.04 * (pose % 2);
