@@ -63,7 +63,12 @@ std::string instruction_set() {
 }
 
 std::string embree_configuration() {
-  return cap() && *cap()->embree ? fmt::format("max_isa={}", cap()->embree) : std::string();
+  std::string words;
+  if (cap() && *cap()->embree) words = fmt::format("max_isa={},", cap()->embree);
+#ifdef LATERNA_PLAIN_THREADS
+  words += "threads=1";  // Debian's Embree is not instrumented: ThreadSanitizer cannot follow its threads
+#endif
+  return words;
 }
 
 }  // namespace laterna

@@ -22,7 +22,7 @@ void cap_instruction_set(const std::string& name);
 /// The name of the set that the hot loops use (avx is served by sse4.2).
 std::string instruction_set();
 
-/// The cap in the words of rtcNewDevice().
+/// The cap in the words of rtcNewDevice(); with plain threads (sim/parallel.cpp) Embree gets one.
 std::string embree_configuration();
 
 }  // namespace laterna
