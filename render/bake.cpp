@@ -1,5 +1,6 @@
 #include "render/bake.h"
 
+#include "render/bilinear.h"
 #include "render/direct_light.h"
 #include "sim/error.h"
 
@@ -73,14 +74,6 @@ void check(const Object& object, const Camera& camera, const Image<float>& photo
     throw InputError(fmt::format("texture: a size of {} was found, expected 1 to 16384", size_px));
 }
 
-float bilinear(const Image<float>& image, double u, double v) {
-  const LinearTaps x = linear_taps(u, image.width), y = linear_taps(v, image.height);
-  const auto row = [&](int j) {
-    return glm::mix(double(image(x.first, j)), double(image(x.second, j)), x.share);
-  };
-  return float(glm::mix(row(y.first), row(y.second), y.share));
-}
-
 }  // namespace
 
 BakedTexture bake_photograph(const RayScene& rays, const Scene& scene, std::uint32_t object,
@@ -97,7 +90,7 @@ BakedTexture bake_photograph(const RayScene& rays, const Scene& scene, std::uint
   for (std::size_t i = 0; i < texture.value.values.size(); ++i) {
     if (!seen.lit(i)) continue;
     texture.covered.values[i] = 1;
-    texture.value.values[i] = bilinear(photograph, seen.u_px.values[i], seen.v_px.values[i]);
+    texture.value.values[i] = float(bilinear_value(photograph, {seen.u_px.values[i], seen.v_px.values[i]}));
   }
   return texture;
 }

@@ -1,5 +1,7 @@
 #include "render/effects/vignetting.h"
 
+#include "render/bilinear.h"
+
 #include <algorithm>
 
 namespace laterna {
@@ -14,10 +16,7 @@ double polynomial(const std::vector<double>& coefficients, double x) {
 
 double map_value(const Image<float>& map, const glm::dvec2& pixel, const glm::ivec2& size) {
   const glm::dvec2 at = (pixel + 0.5) / glm::dvec2(size) * glm::dvec2(map.width, map.height) - 0.5;
-  const LinearTaps x = linear_taps(at.x, map.width), y = linear_taps(at.y, map.height);
-  const double upper = glm::mix(double(map(x.first, y.first)), double(map(x.second, y.first)), x.share);
-  const double lower = glm::mix(double(map(x.first, y.second)), double(map(x.second, y.second)), x.share);
-  return glm::mix(upper, lower, y.share);
+  return bilinear_value(map, at);
 }
 
 double tan2(const glm::dvec3& x_device) {
