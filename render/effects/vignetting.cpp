@@ -3,14 +3,15 @@
 #include "render/bilinear.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace laterna {
 
 namespace {
 
 double polynomial(const std::vector<double>& coefficients, double x) {
-  double sum = 0;
-  for (auto c = coefficients.rbegin(); c != coefficients.rend(); ++c) sum = (sum + *c) * x;
+  const double sum = std::accumulate(coefficients.rbegin(), coefficients.rend(), 0.0,
+                                     [x](double inner, double c) { return (inner + c) * x; });
   return std::max(0.0, 1 + sum);
 }
 
