@@ -56,36 +56,6 @@ CaptureSequence sequence_of(const Json& json) {
   return s;
 }
 
-// "graycode_2.png" stands before "graycode_10.png": runs of digits compare as numbers.
-bool natural_less(const std::string& a, const std::string& b) {
-  std::size_t i = 0, j = 0;
-  while (i < a.size() && j < b.size()) {
-    if (std::isdigit(static_cast<unsigned char>(a[i])) && std::isdigit(static_cast<unsigned char>(b[j]))) {
-      const std::size_t i0 = std::min(a.find_first_not_of('0', i), a.size()),
-                        j0 = std::min(b.find_first_not_of('0', j), b.size());
-      const std::size_t i1 = std::min(a.find_first_not_of("0123456789", i0), a.size());
-      const std::size_t j1 = std::min(b.find_first_not_of("0123456789", j0), b.size());
-      if (i1 - i0 != j1 - j0) return i1 - i0 < j1 - j0;
-      if (const int order = a.compare(i0, i1 - i0, b, j0, j1 - j0)) return order < 0;
-      i = i1, j = j1;
-    } else if (a[i] != b[j]) {
-      return a[i] < b[j];
-    } else {
-      ++i, ++j;
-    }
-  }
-  if (a.size() - i != b.size() - j) return a.size() - i < b.size() - j;
-  return a < b;  // "1" and "01": a fixed order all the same
-}
-
-bool is_picture(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return std::tolower(c); });
-  constexpr std::array known{".png", ".tif", ".tiff", ".pgm", ".bmp", ".jpg", ".jpeg"};
-  return std::find(known.begin(), known.end(), extension) != known.end();
-}
-
 }  // namespace
 
 std::string manifest_json(const CaptureManifest& manifest) {
@@ -117,6 +87,27 @@ CaptureManifest parse_manifest(const std::string& text, const std::string& file_
   }
 }
 
+bool natural_less(const std::string& a, const std::string& b) {
+  std::size_t i = 0, j = 0;
+  while (i < a.size() && j < b.size()) {
+    if (std::isdigit(static_cast<unsigned char>(a[i])) && std::isdigit(static_cast<unsigned char>(b[j]))) {
+      const std::size_t i0 = std::min(a.find_first_not_of('0', i), a.size()),
+                        j0 = std::min(b.find_first_not_of('0', j), b.size());
+      const std::size_t i1 = std::min(a.find_first_not_of("0123456789", i0), a.size());
+      const std::size_t j1 = std::min(b.find_first_not_of("0123456789", j0), b.size());
+      if (i1 - i0 != j1 - j0) return i1 - i0 < j1 - j0;
+      if (const int order = a.compare(i0, i1 - i0, b, j0, j1 - j0)) return order < 0;
+      i = i1, j = j1;
+    } else if (a[i] != b[j]) {
+      return a[i] < b[j];
+    } else {
+      ++i, ++j;
+    }
+  }
+  if (a.size() - i != b.size() - j) return a.size() - i < b.size() - j;
+  return a < b;  // "1" and "01": a fixed order all the same
+}
+
 CaptureManifest read_manifest(const std::filesystem::path& folder) {
   const auto path = folder / "manifest.json";
   std::ifstream file(path, std::ios::binary);
@@ -125,6 +116,14 @@ CaptureManifest read_manifest(const std::filesystem::path& folder) {
   std::ostringstream text;
   text << file.rdbuf();
   return parse_manifest(text.str(), path.string());
+}
+
+bool is_picture(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
+  constexpr std::array known{".png", ".tif", ".tiff", ".pgm", ".bmp", ".jpg", ".jpeg"};
+  return std::find(known.begin(), known.end(), extension) != known.end();
 }
 
 CaptureSequence plain_sequence(const std::filesystem::path& folder, const PatternSequence& patterns) {

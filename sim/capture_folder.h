@@ -61,6 +61,13 @@ CaptureManifest parse_manifest(const std::string& text, const std::string& file_
 /// Reads DIR/manifest.json.
 CaptureManifest read_manifest(const std::filesystem::path& folder);
 
+/// The order of file names, with runs of digits compared as numbers: "graycode_2.png" before
+/// "graycode_10.png".
+bool natural_less(const std::string& a, const std::string& b);
+
+/// Whether a file's name ends as a plain picture's: .png, .tif, .tiff, .pgm, .bmp, .jpg or .jpeg.
+bool is_picture(const std::filesystem::path& path);
+
 /// A folder of plain pictures, as a real projector and camera leave them: every .png, .tif, .pgm, .bmp or
 /// .jpg of the folder in the order of their names (numbers compared as numbers) is one picture of one
 /// sequence of the given family.

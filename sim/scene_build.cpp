@@ -6,6 +6,7 @@
 #include "sim/image_file.h"
 #include "sim/mesh_file.h"
 #include "sim/plain_name.h"
+#include "sim/printed_board.h"
 #include "sim/shapes.h"
 
 #include <fmt/format.h>
@@ -167,6 +168,21 @@ void add_displacement_map(Object& object, const std::filesystem::path& folder) {
       std::make_shared<const Image<float>>(read_fractions(folder / file, Encoding::linear));
 }
 
+Mesh build_mesh(const MeshSpec& spec, const std::filesystem::path& folder) {
+  if (!spec.file.empty()) return read_mesh(folder / spec.file);
+  if (spec.board.empty()) return make_shape({spec.shape, spec.shape_size, spec.detail, spec.seed});
+  const glm::dvec2 size = board_size_m(parse_board(spec.board));
+  return plane(size.x, size.y, spec.detail, spec.detail);
+}
+
+/// What a print reflects of what its paper does.
+std::shared_ptr<const Image<float>> print_of(const std::string& board) {
+  constexpr float ink = 0.05f;
+  Image<float> print = board_print(parse_board(board));
+  for (float& value : print.values) value = ink + (1 - ink) * value;
+  return std::make_shared<const Image<float>>(std::move(print));
+}
+
 Object build_object(const MeshSpec& spec, const std::filesystem::path& folder, Maps& maps) {
   Object object{.name = spec.name,
                 .mesh = {},
@@ -177,12 +193,9 @@ Object build_object(const MeshSpec& spec, const std::filesystem::path& folder, M
                 .seed = spec.seed,
                 .normal_map = {},
                 .displacement_map = {}};
-  if (spec.file.empty()) {
-    object.mesh = make_shape({spec.shape, spec.shape_size, spec.detail, spec.seed});
-  } else {
-    object.mesh = read_mesh(folder / spec.file);
-  }
-  validate(object.mesh, spec.file.empty() ? spec.shape : spec.file);
+  object.mesh = build_mesh(spec, folder);
+  if (!spec.board.empty()) object.albedo_map = print_of(spec.board);
+  validate(object.mesh, spec.file.empty() ? spec.shape + spec.board : spec.file);
   expect_near(object.mesh, object.world_from_object);
   add_normal_map(object, folder);
   add_displacement_map(object, folder);
@@ -227,6 +240,7 @@ void switch_off_lenses(Scene& scene) {
 }
 
 std::string mesh_name(const MeshSpec& mesh) {
+  if (!mesh.board.empty()) return "board";
   if (mesh.file.empty()) return mesh.shape;
   std::filesystem::path stem = std::filesystem::path(mesh.file).filename();
   if (stem.extension() == ".gz") stem = stem.stem();
@@ -252,9 +266,12 @@ glm::dmat4 world_from_file(const MeshSpec& mesh) {
 
 void check(const MeshSpec& mesh) {
   about(heading("mesh", mesh.name), [&] {
-    if (mesh.file.empty() == mesh.shape.empty()) {
-      throw InputError(mesh.file.empty() ? "file and shape are missing, expected one of the two"
-                                         : "file and shape are both given, expected one of the two");
+    const int given = int(!mesh.file.empty()) + int(!mesh.shape.empty()) + int(!mesh.board.empty());
+    if (given != 1)
+      throw InputError(fmt::format("{} of file, shape and board are given, expected one", given));
+    if (!mesh.board.empty()) {
+      parse_board(mesh.board);
+      if (!mesh.albedo_map.empty()) throw InputError("albedo_map is given for a board, which has a print");
     }
     world_from_file(mesh);
     check(mesh.effects, mesh.albedo);

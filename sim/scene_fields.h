@@ -391,6 +391,14 @@ void describe(Visitor& visit, MeshSpec& mesh) {
               .sentence = "Instead of a file: plane, box, sphere, relief or v_groove, centred at the origin, "
                           "its picture side towards +z."},
         mesh.shape);
+  visit(
+      Field{
+          .key = "board",
+          .sentence =
+              "Instead of a file: a printed calibration board, centred at the origin, its print towards +z: "
+              "chessboard,9x7,75mm or charuco,8x6,40mm,30mm,DICT_4X4_50 or circles,7x5,30mm,15mm or "
+              "acircles,4x11,20mm,15mm (sim/printed_board.h). Its ink reflects a twentieth of `albedo`."},
+      mesh.board);
   visit(Field{.key = "shape_size",
               .unit = "m",
               .sentence = "Size of the shape along x, y and z; a sphere's diameter three times.",

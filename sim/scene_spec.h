@@ -21,13 +21,13 @@ namespace laterna {
 
 enum class UpAxis { y, z };
 
-/// A mesh: exactly one of `file` and `shape`. With unit, up and placement,
+/// A mesh: exactly one of `file`, `shape` and `board`. With unit, up and placement,
 ///   x_world = world_from_object · U · (unit · x_file),  U = identity (up = "z") or (x, y, z) → (x, -z, y)
 ///   (up = "y").
 /// Where world_from_object is absent, x_world = translate + Rz·Ry·Rx · scale · U · (unit · x_file).
 struct MeshSpec {
   std::string name{};
-  std::string file{}, shape{};
+  std::string file{}, shape{}, board{};
   glm::dvec3 shape_size{1, 1, 1};
   int detail = 64;
   std::uint64_t seed = 1;

@@ -241,6 +241,38 @@ std::string board_text(const BoardCalibration& c) {
          fmt::format("verdict: {}{}{}\n", status_word(c.status), c.reason.empty() ? "" : ": ", c.reason);
 }
 
+void add_placements(Json& json, const BoardFolders& folders) {
+  json["placements"] = Json::array();
+  for (const BoardPlacement& p : folders.placements) {
+    Json projectors = Json::array();
+    for (const BoardPlacement::Reading& r : p.projectors)
+      projectors.push_back({{"name", r.projector},
+                            {"points", r.reading.points},
+                            {"median_residual_px", number(r.reading.median_residual_px)}});
+    json["placements"].push_back({{"folder", p.folder},
+                                  {"board", p.board},
+                                  {"pose", p.pose},
+                                  {"points", p.points},
+                                  {"projectors", projectors}});
+  }
+  json["warnings"] = folders.warnings;
+}
+
+std::string placements_text(const BoardFolders& folders) {
+  std::string text;
+  if (!folders.placements.empty())
+    text = fmt::format("{:<6} {:<28} {:>7}  {}\n", "pose", "folder", "points",
+                       "projector: points read, median residual of the local fits");
+  for (const BoardPlacement& p : folders.placements) {
+    text += fmt::format("{:<6} {:<28} {:>7} ", p.pose, p.folder, p.points);
+    for (const BoardPlacement::Reading& r : p.projectors)
+      text += fmt::format(" {}: {}, {:.3f} px", r.projector, r.reading.points, r.reading.median_residual_px);
+    text += "\n";
+  }
+  for (const std::string& warning : folders.warnings) text += fmt::format("warning: {}\n", warning);
+  return text.empty() ? text : text + "\n";
+}
+
 Json methods_json(const std::vector<MethodResult>& results) {
   Json methods = Json::array();
   for (const MethodResult& r : results) {

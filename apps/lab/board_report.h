@@ -1,6 +1,7 @@
 // What a calibration from boards found, for machines and for people.
 #pragma once
 
+#include "apps/lab/board_folders.h"
 #include "calib/boards/calibrate_boards.h"
 #include "calib/peers/board_methods.h"
 
@@ -22,6 +23,13 @@ nlohmann::json board_json(const BoardCalibration& calibration);
 
 /// The same as a report to read: ladder, parameters with sigmas, poses, how sure the pixels are, verdict.
 std::string board_text(const BoardCalibration& calibration);
+
+/// Adds "placements": [{"folder", "board", "pose", "points", "projectors": [{"name", "points",
+/// "median_residual_px"}]}] and "warnings": [sentence] to what board_json() made.
+void add_placements(nlohmann::json& json, const BoardFolders& folders);
+
+/// The same as a table; empty without placements and warnings.
+std::string placements_text(const BoardFolders& folders);
 
 /// [{"method", "failure", "fit_rms_px", "held_out_px": {"rms", "folds", "failed"}, "seconds", "projector":
 /// {"fx", "fy", "cx", "cy"}}]: every method on the same sightings.

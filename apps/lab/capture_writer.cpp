@@ -1,5 +1,6 @@
 #include "apps/lab/capture_writer.h"
 
+#include "apps/lab/board_places.h"
 #include "apps/lab/capture_warnings.h"
 #include "apps/lab/matrices.h"
 #include "apps/lab/truth_picture.h"
@@ -10,6 +11,7 @@
 #include "sim/image_file.h"
 #include "sim/parallel.h"
 #include "sim/safe_write.h"
+#include "sim/scene_build.h"
 #include "sim/self_contained.h"
 
 #include <fmt/format.h>
@@ -135,6 +137,26 @@ std::vector<std::string> write_capture(const SceneSpec& spec, const Scene& scene
     for (int projector = 0; projector < int(scene.projectors.size()); ++projector)
       manifest.sequences.push_back(write_view(scene, rig, camera, projector, root, options, times, progress));
   write_file(root / "manifest.json", manifest_json(manifest));
+  pending.commit();
+  return warnings;
+}
+
+std::vector<std::string> write_board_captures(const SceneSpec& spec, const std::filesystem::path& folder,
+                                              const std::filesystem::path& target, int places,
+                                              const CaptureOptions& options, StageTimes& times,
+                                              const Progress& progress) {
+  const std::vector<SceneSpec> scenes = board_places(spec, folder, {.count = places}, options.seed);
+  PendingFolder pending(target);
+  std::vector<std::string> warnings;
+  for (std::size_t k = 0; k < scenes.size(); ++k) {
+    CaptureOptions one = options;
+    one.seed += k;
+    const std::string name = fmt::format("place_{:02}", k);
+    if (progress) progress(name);
+    const std::vector<std::string> said = write_capture(scenes[k], build_scene(scenes[k], folder), folder,
+                                                        pending.path() / name, one, times, progress);
+    for (const std::string& warning : said) warnings.push_back(name + ": " + warning);
+  }
   pending.commit();
   return warnings;
 }

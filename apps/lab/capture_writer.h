@@ -23,4 +23,12 @@ std::vector<std::string> write_capture(const SceneSpec& spec, const Scene& scene
                                        const std::filesystem::path& target, const CaptureOptions& options,
                                        StageTimes& times, const Progress& progress = {});
 
+/// One capture for each place of the scene's board (board_places.h), seeds counting up from the options', in
+/// `target`/place_00, place_01, .... `target` is there only when all are. Throws InputError as board_places()
+/// and write_capture() do.
+std::vector<std::string> write_board_captures(const SceneSpec& spec, const std::filesystem::path& folder,
+                                              const std::filesystem::path& target, int places,
+                                              const CaptureOptions& options, StageTimes& times,
+                                              const Progress& progress = {});
+
 }  // namespace laterna

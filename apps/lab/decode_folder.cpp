@@ -22,19 +22,36 @@ CaptureManifest manifest_or_pictures(const std::filesystem::path& folder,
   return manifest;
 }
 
-DecodedSequence decode_sequence(const std::filesystem::path& folder, const CaptureSequence& sequence,
-                                const DecodeOptions& options) {
+namespace {
+
+// Runs `action`; an InputError that does not name the folder gets it in front.
+template <class Action>
+auto in_folder(const std::filesystem::path& folder, Action&& action) {
   try {
-    const PatternSequence patterns{sequence.patterns, sequence.projector_size};
-    const CapturedStack pictures = read_pictures(folder, sequence);
-    DecodedSequence decoded{sequence, decode(pictures, patterns, options), {}};
-    decoded.report = report_on(pictures, patterns, decoded.map);
-    return decoded;
+    return action();
   } catch (const InputError& error) {
     const std::string message = error.what();
     if (message.find(folder.string()) != std::string::npos) throw;
     throw InputError(fmt::format("{}: {}", folder.string(), message));
   }
+}
+
+}  // namespace
+
+DecodedSequence decode_sequence(const std::filesystem::path& folder, const CaptureSequence& sequence,
+                                const CapturedStack& pictures, const DecodeOptions& options) {
+  return in_folder(folder, [&] {
+    const PatternSequence patterns{sequence.patterns, sequence.projector_size};
+    DecodedSequence decoded{sequence, decode(pictures, patterns, options), {}};
+    decoded.report = report_on(pictures, patterns, decoded.map);
+    return decoded;
+  });
+}
+
+DecodedSequence decode_sequence(const std::filesystem::path& folder, const CaptureSequence& sequence,
+                                const DecodeOptions& options) {
+  return decode_sequence(folder, sequence, in_folder(folder, [&] { return read_pictures(folder, sequence); }),
+                         options);
 }
 
 void write_decoded(const std::filesystem::path& path, const DecodedMap& map) {

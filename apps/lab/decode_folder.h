@@ -28,6 +28,10 @@ CaptureManifest manifest_or_pictures(const std::filesystem::path& folder,
 DecodedSequence decode_sequence(const std::filesystem::path& folder, const CaptureSequence& sequence,
                                 const DecodeOptions& options);
 
+/// The same for pictures at hand.
+DecodedSequence decode_sequence(const std::filesystem::path& folder, const CaptureSequence& sequence,
+                                const CapturedStack& pictures, const DecodeOptions& options);
+
 /// Layers projector.u, projector.v (px), sigma.px, confidence, valid, in single precision.
 void write_decoded(const std::filesystem::path& path, const DecodedMap& map);
 

@@ -1,4 +1,4 @@
-#include "apps/laterna/calibrate_csv.h"
+#include "apps/laterna/calibrate_boards.h"
 #include "apps/laterna/pattern_words.h"
 #include "apps/laterna/solve_words.h"
 
@@ -11,22 +11,30 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <array>
+#include <utility>
+
 namespace laterna {
 
 namespace {
 
 struct Words {
-  std::string folder, scene, size, out;
+  std::vector<std::string> paths;
+  std::string scene, size, out;
   PatternParameters patterns;
   SolveOptions solve;
-  CsvWords csv;
+  BoardWords boards;
 };
+
+/// What an option is for: used elsewhere, it is an error.
+enum class For { known_scene, boards, table, board_folders };
 
 Scene believed_scene(const Words& words, const CaptureManifest& manifest) {
   if (!words.scene.empty()) return load_scene(words.scene);
   if (manifest.scene.empty())
-    throw InputError(fmt::format("{}: names no scene, expected --scene with mesh and camera", words.folder));
-  return load_scene(std::filesystem::path(words.folder) / manifest.scene);
+    throw InputError(
+        fmt::format("{}: names no scene, expected --scene with mesh and camera", words.paths[0]));
+  return load_scene(std::filesystem::path(words.paths[0]) / manifest.scene);
 }
 
 void check_output(const std::string& out) {
@@ -43,12 +51,16 @@ bool is_table(const std::string& path) {
 }
 
 int run(const Words& words, const Common& common) {
-  const CaptureManifest manifest =
-      manifest_or_pictures(words.folder, plain_patterns(words.patterns, words.size));
+  if (words.paths.size() > 1)
+    throw InputError(
+        fmt::format("{} folders, expected one, or --board with a board that stands elsewhere in each",
+                    words.paths.size()));
+  const std::filesystem::path folder = words.paths[0];
+  const CaptureManifest manifest = manifest_or_pictures(folder, plain_patterns(words.patterns, words.size));
   const Scene scene = believed_scene(words, manifest);
   SolveOptions options = words.solve;
   options.seed = common.seed;
-  const auto estimates = calibrate_folder(words.folder, manifest, scene, options, {},
+  const auto estimates = calibrate_folder(folder, manifest, scene, options, {},
                                           [&](const std::string& line) { progress(common, line); });
   std::vector<nlohmann::json> entries;
   int code = exit_ok;
@@ -74,21 +86,53 @@ int run(const Words& words, const Common& common) {
   return code;
 }
 
+void expect_options(const CLI::App& command, For what) {
+  static constexpr std::array<std::pair<const char*, For>, 14> options{
+      {{"--scene", For::known_scene},
+       {"--loss", For::known_scene},
+       {"--loss-scale", For::known_scene},
+       {"--lens", For::boards},
+       {"--board-bend", For::boards},
+       {"--one-focal-length", For::boards},
+       {"--fixed-center", For::boards},
+       {"--compare", For::boards},
+       {"--pictures", For::boards},
+       {"--camera-size", For::table},
+       {"--camera", For::board_folders},
+       {"--local-fit", For::board_folders},
+       {"--board", For::board_folders},
+       {"--correspondences", For::board_folders}}};
+  for (const auto& [option, of] : options) {
+    if (command.count(option) == 0 || of == what) continue;
+    if (of == For::boards && what != For::known_scene) continue;
+    const char* expected = of == For::known_scene ? "a folder of a known scene, without --board"
+                           : of == For::table     ? "FILE.csv"
+                           : of == For::boards    ? "FILE.csv or --board"
+                                                  : "folders and --board";
+    throw InputError(fmt::format("{} does not go with this input, expected {}", option, expected));
+  }
+}
+
 }  // namespace
 
 void add_calibrate(CLI::App& app, Common& common) {
   auto words = std::make_shared<Words>();
-  CLI::App* command =
-      add_command(app, "calibrate", "laterna calibrate capture -o estimate.json",
-                  "Recovers the projectors of a capture folder from its pictures and a known "
-                  "scene: meshes and cameras are believed, nothing of\n"
-                  "the projectors but their lens models. Real pictures: --scene with mesh "
-                  "and camera, and --projector-size.\n"
-                  "From a board in several poses: laterna calibrate board.csv --camera-size "
-                  "1280x1024 --projector-size 1024x768, with the columns\n"
-                  "pose,corner,board_x,board_y,board_z,cam_x,cam_y,proj_x,proj_y,valid: camera "
-                  "and projector together (--tolerance-px is 1 then).");
-  command->add_option("FOLDER", words->folder, "Capture folder, folder of pictures, or FILE.csv")->required();
+  CLI::App* command = add_command(
+      app, "calibrate", "laterna calibrate capture -o estimate.json",
+      "Recovers the projectors of a capture folder from its pictures and a known "
+      "scene: meshes and cameras are believed, nothing of\n"
+      "the projectors but their lens models. Real pictures: --scene with mesh "
+      "and camera, and --projector-size.\n"
+      "From a board in several places, camera and projectors together (--tolerance-px is 1 then): "
+      "laterna calibrate place_* --board chessboard,9x7,75mm,\n"
+      "or laterna calibrate board.csv --camera-size 1280x1024 --projector-size 1024x768 with the columns "
+      "pose,corner,board_x,board_y,board_z,cam_x,cam_y,proj_x,proj_y,valid.");
+  command
+      ->add_option(
+          "FOLDER", words->paths,
+          "Capture folder, folder of pictures, FILE.csv; with --board one folder for each place of the "
+          "board, or a folder of such folders")
+      ->required();
   command->add_option("--scene", words->scene,
                       "Scene with the believed meshes and cameras (default: the folder's own)");
   command->add_option("--projector-size", words->size,
@@ -96,24 +140,23 @@ void add_calibrate(CLI::App& app, Common& common) {
   add_pattern_words(*command, words->patterns);
   command->add_option("-o,--output", words->out, "File for the estimate (JSON; default: none written)");
   add_solve_words(*command, words->solve);
-  add_csv_words(*command, words->csv);
+  add_board_words(*command, words->boards);
   command->callback([words, command, &common] {
     check_output(words->out);
-    if (!is_table(words->folder)) {
-      for (const char* option :
-           {"--camera-size", "--lens", "--board-bend", "--one-focal-length", "--fixed-center", "--compare"})
-        if (command->count(option) > 0)
-          throw InputError(fmt::format("{}: {} is for a table of correspondences, expected FILE.csv",
-                                       words->folder, option));
+    check_output(words->boards.correspondences);
+    const bool table = is_table(words->paths[0]), boards = !words->boards.boards.empty();
+    if (table && boards) throw InputError("--board is for pictures, expected folders");
+    expect_options(*command, table ? For::table : boards ? For::board_folders : For::known_scene);
+    if (!table && !boards) {
       common.exit_code = run(*words, common);
       return;
     }
-    for (const char* option : {"--scene", "--loss", "--loss-scale"})
-      if (command->count(option) > 0)
-        throw InputError(fmt::format("{}: {} is for pictures, expected a folder", words->folder, option));
     const bool told = command->count("--tolerance-px") > 0;
-    common.exit_code = calibrate_csv(words->folder, words->size, words->out, words->csv,
-                                     told ? std::optional(words->solve.tolerance_px) : std::nullopt, common);
+    const BoardOutput output{words->out, told ? std::optional(words->solve.tolerance_px) : std::nullopt};
+    common.exit_code =
+        table ? calibrate_csv(words->paths[0], words->size, words->boards, output, common)
+              : calibrate_board_folders(words->paths, plain_patterns(words->patterns, words->size),
+                                        words->boards, output, common);
   });
 }
 

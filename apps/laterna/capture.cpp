@@ -27,6 +27,7 @@ void add_capture(CLI::App& app, Common& common) {
     std::string scene, out;
     CaptureOptions options;
     bool explain = false;
+    int board_places = 0;
   };
   auto words = std::make_shared<Words>();
   CLI::App* command = add_command(app, "capture", "laterna capture scene.toml -o capture",
@@ -44,6 +45,12 @@ void add_capture(CLI::App& app, Common& common) {
   command->add_flag("!--no-truth", words->options.truth, "Leaves out the truth per pixel");
   command->add_flag("--explain", words->explain,
                     "Toggles each effect in turn and prints what it costs and changes, in place of a folder");
+  command
+      ->add_option("--board-places", words->board_places,
+                   "Captures the scene so many times into OUTPUT/place_00, place_01, ..., its first mesh "
+                   "with `board` held "
+                   "at another place each time, for `laterna calibrate OUTPUT --board ...`")
+      ->check(CLI::Range(1, 1000));
   command->callback([words, &common] {
     if (words->out.empty() && !words->explain) throw CLI::RequiredError("--output");
     const SceneSpec spec = with_names(read_scene_spec(words->scene));
@@ -57,9 +64,11 @@ void add_capture(CLI::App& app, Common& common) {
       return;
     }
     StageTimes times;
+    const Progress tell = [&](const std::string& line) { progress(common, line); };
     const std::vector<std::string> warnings =
-        write_capture(spec, scene, folder, words->out, words->options, times,
-                      [&](const std::string& line) { progress(common, line); });
+        words->board_places > 0
+            ? write_board_captures(spec, folder, words->out, words->board_places, words->options, times, tell)
+            : write_capture(spec, scene, folder, words->out, words->options, times, tell);
     if (common.json) {
       nlohmann::json seconds;
       for (const auto& stage : times.stages) seconds[stage.name] = stage.seconds;
@@ -68,7 +77,8 @@ void add_capture(CLI::App& app, Common& common) {
       return;
     }
     for (const auto& stage : times.stages) fmt::print("  {:<10} {:>8.3f} s\n", stage.name, stage.seconds);
-    fmt::print("open {}/manifest.json\n", words->out);
+    fmt::print("open {}/{}\n", words->out,
+               words->board_places > 0 ? "place_00/manifest.json" : "manifest.json");
   });
 }
 

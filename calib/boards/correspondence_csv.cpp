@@ -157,4 +157,23 @@ BoardCapture read_correspondence_csv(const std::filesystem::path& path, glm::ive
                                   projector_size);
 }
 
+std::string correspondence_csv(const BoardCapture& capture) {
+  if (capture.devices.size() != 2)
+    throw InputError(fmt::format("table of correspondences: {} devices, expected a camera and a projector",
+                                 capture.devices.size()));
+  std::map<std::pair<int, int>, std::array<const Sighting*, 2>> rows;
+  for (const Sighting& s : capture.sightings) rows[{s.pose, s.corner}][std::size_t(s.device)] = &s;
+  std::string text = fmt::format("{}\n", fmt::join(table_columns, ","));
+  for (const auto& [key, row] : rows) {
+    const auto& [camera, projector] = row;
+    if (!camera) continue;
+    const glm::dvec3& x = camera->x_board;
+    text += fmt::format("{},{},{},{},{},{},{},", capture.pose_labels[std::size_t(key.first)], key.second, x.x,
+                        x.y, x.z, camera->pixel.x, camera->pixel.y);
+    text +=
+        projector ? fmt::format("{},{},1\n", projector->pixel.x, projector->pixel.y) : std::string(",,0\n");
+  }
+  return text;
+}
+
 }  // namespace laterna

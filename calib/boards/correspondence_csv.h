@@ -28,4 +28,9 @@ BoardCapture parse_correspondence_csv(std::string_view text, const std::string& 
 BoardCapture read_correspondence_csv(const std::filesystem::path& path, glm::ivec2 camera_size,
                                      glm::ivec2 projector_size);
 
+/// The table of a capture by one camera and one projector, numbers to the last bit; where the projector has
+/// not sighted a corner, valid is 0. parse_correspondence_csv() of it has the same sightings (sigmas but 1,
+/// and corners that only the projector sights, are lost). Throws InputError for another number of devices.
+std::string correspondence_csv(const BoardCapture& capture);
+
 }  // namespace laterna
