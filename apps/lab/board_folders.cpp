@@ -75,7 +75,7 @@ void expect_dense(const CaptureSequence& sequence, const fs::path& folder) {
 /// One camera's pictures of one folder.
 struct Placement {
   std::vector<DecodedSequence> sequences;
-  Image<float> picture;
+  PrintPicture picture;
 };
 
 Placement read_placement(const fs::path& folder, const BoardFolderOptions& options, BoardFolders& result) {
@@ -83,7 +83,7 @@ Placement read_placement(const fs::path& folder, const BoardFolderOptions& optio
   for (const CaptureSequence& sequence : sequences_of(folder, options)) {
     expect_dense(sequence, folder);
     const CapturedStack pictures = read_pictures(folder, sequence);
-    if (placement.sequences.empty()) placement.picture = mean_picture(pictures);
+    if (placement.sequences.empty()) placement.picture = print_picture(pictures);
     placement.sequences.push_back(decode_sequence(folder, sequence, pictures, options.decode));
     for (const std::string& flag : placement.sequences.back().report.flags)
       result.warnings.push_back(fmt::format("{}, \"{}\": {}", folder.string(), sequence.projector, flag));
@@ -135,7 +135,7 @@ BoardFolders read_board_folders(const std::vector<fs::path>& folders, const Boar
     if (progress) progress(fmt::format("looking for boards in {}", folder.string()));
     const Placement placement = read_placement(folder, options, result);
     device_index(result.capture, placement.sequences.front().sequence.camera,
-                 {placement.picture.width, placement.picture.height}, folder);
+                 {placement.picture.mean.width, placement.picture.mean.height}, folder);
     for (const DecodedSequence& s : placement.sequences)
       device_index(result.capture, s.sequence.projector, s.sequence.projector_size, folder);
     const std::size_t before = result.placements.size();

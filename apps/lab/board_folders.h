@@ -13,11 +13,11 @@
 namespace laterna {
 
 struct BoardFolderOptions {
-  std::vector<PrintedBoard> boards;         ///< each is looked for in every folder
-  std::optional<PatternSequence> patterns;  ///< of folders without a manifest
-  std::string camera;                       ///< whose pictures are used; empty: the only one
+  std::vector<PrintedBoard> boards;           ///< each is looked for in every folder
+  std::optional<PatternSequence> patterns{};  ///< of folders without a manifest
+  std::string camera{};                       ///< whose pictures are used; empty: the only one
   LocalMap local = LocalMap::quadratic;
-  DecodeOptions decode;
+  DecodeOptions decode{};
 };
 
 /// A board that was found in a folder.
@@ -29,7 +29,7 @@ struct BoardPlacement {
   std::string folder;
   int board = 0;                      ///< index into the options' boards
   int pose = 0;                       ///< label in the capture
-  Image<float> picture;        ///< the mean of its pictures
+  PrintPicture picture;               ///< what it was found in
   std::size_t points = 0;             ///< found by the camera
   std::vector<Reading> projectors{};  ///< what each projector's pixels were like there
 };

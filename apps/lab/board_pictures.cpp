@@ -105,7 +105,7 @@ Image<glm::u8vec3> residual_picture(const BoardCalibration& calibration, int dev
 }
 
 Image<glm::u8vec3> placement_picture(const BoardFolders& folders, const BoardPlacement& placement) {
-  const Image<float>& mean = placement.picture;
+  const Image<float>& mean = placement.picture.mean;
   Canvas canvas(mean.width, mean.height, background);
   for (int y = 0; y < mean.height; ++y)
     for (int x = 0; x < mean.width; ++x) {

@@ -1,5 +1,7 @@
 #include "calib/boards/find_board.h"
 
+#include "calib/median.h"
+
 #include <opencv2/aruco/charuco.hpp>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
@@ -44,22 +46,20 @@ void unmirror(Points& p, const glm::ivec2& count) {
     std::reverse(p.begin() + std::ptrdiff_t(row), p.begin() + std::ptrdiff_t(row) + count.x);
 }
 
-int half_window(const Points& p) {
-  const double step = cv::norm(p[1] - p[0]);
-  return std::clamp(int(step / 4), 2, 15);
+void refine(const cv::Mat& picture, Points& corners, int half_window) {
+  cv::cornerSubPix(picture, corners, {half_window, half_window}, {-1, -1},
+                   {cv::TermCriteria::EPS | cv::TermCriteria::COUNT, 50, 1e-4});
 }
 
 // OpenCV may say that it found a board and give no corners.
 bool find_corners(const cv::Mat& picture, const cv::Size& size, Points& found) {
   const auto all = [&](bool said) { return said && found.size() == std::size_t(size.area()); };
-  if (!all(cv::findChessboardCornersSB(
-          picture, size, found,
-          cv::CALIB_CB_NORMALIZE_IMAGE | cv::CALIB_CB_EXHAUSTIVE | cv::CALIB_CB_ACCURACY)) &&
-      !all(cv::findChessboardCorners(picture, size, found)))
+  constexpr int old_flags =
+      cv::CALIB_CB_ADAPTIVE_THRESH | cv::CALIB_CB_NORMALIZE_IMAGE | cv::CALIB_CB_FAST_CHECK;
+  if (!all(cv::findChessboardCornersSB(picture, size, found, cv::CALIB_CB_NORMALIZE_IMAGE)) &&
+      !all(cv::findChessboardCorners(picture, size, found, old_flags)))
     return false;
-  const int half = half_window(found);
-  cv::cornerSubPix(picture, found, {half, half}, {-1, -1},
-                   {cv::TermCriteria::EPS | cv::TermCriteria::COUNT, 50, 1e-4});
+  refine(picture, found, std::clamp(int(cv::norm(found[1] - found[0]) / 4), 2, 15));
   return true;
 }
 
@@ -78,6 +78,16 @@ std::vector<FoundPoint> find_chessboard(const cv::Mat& picture, const PrintedBoa
   return numbered(found);
 }
 
+// Picture pixels per square: the median over pairs of corners one after the other.
+double spacing_px(const Points& corners, const std::vector<int>& ids, const PrintedBoard& board) {
+  const std::vector<glm::dvec3> points = board_points(board);
+  std::vector<double> per_square;
+  for (std::size_t k = 1; k < corners.size(); ++k)
+    per_square.push_back(cv::norm(corners[k] - corners[k - 1]) * board.spacing_m /
+                         glm::distance(points[std::size_t(ids[k])], points[std::size_t(ids[k - 1])]));
+  return median(per_square);
+}
+
 std::vector<FoundPoint> find_charuco(const cv::Mat& picture, const PrintedBoard& board) {
   const auto dictionary = cv::aruco::getPredefinedDictionary(dictionary_id(board.dictionary));
   const auto layout = cv::aruco::CharucoBoard::create(board.count.x, board.count.y, float(board.spacing_m),
@@ -88,6 +98,12 @@ std::vector<FoundPoint> find_charuco(const cv::Mat& picture, const PrintedBoard&
   cv::aruco::detectMarkers(picture, dictionary, markers, marker_ids);
   if (marker_ids.empty()) return {};
   cv::aruco::interpolateCornersCharuco(markers, marker_ids, picture, layout, corners, ids);
+  if (corners.size() < 4) return {};
+  // The white beside the markers is narrow: OpenCV's own window is too, and it leaves half a pixel in both
+  // coordinates.
+  const int half =
+      std::max(2, int(spacing_px(corners, ids, board) * (1 - board.mark_m / board.spacing_m) / 2));
+  refine(picture, corners, half);
   std::vector<FoundPoint> found;
   for (std::size_t k = 0; k < corners.size(); ++k) found.push_back({ids[k], {corners[k].x, corners[k].y}});
   std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.index < b.index; });
@@ -105,12 +121,46 @@ cv::Point2d centre_bias(const cv::Matx33d& picture_from_board, const cv::Point2d
   return {seen(0, 2) / seen(2, 2) - centre[0] / centre[2], seen(1, 2) / seen(2, 2) - centre[1] / centre[2]};
 }
 
+// The centroid of what is darker than paper, each pixel weighted by how much, within a disc that holds one
+// circle.
+void refine_circle(const cv::Mat& picture, cv::Point2f& centre, double radius) {
+  double paper = 0, ink = 255;
+  const int reach = int(std::ceil(radius));
+  const cv::Point middle(int(std::lround(centre.x)), int(std::lround(centre.y)));
+  const auto each = [&](const auto& visit) {
+    for (int y = middle.y - reach; y <= middle.y + reach; ++y)
+      for (int x = middle.x - reach; x <= middle.x + reach; ++x)
+        if (x >= 0 && y >= 0 && x < picture.cols && y < picture.rows &&
+            std::hypot(x - centre.x, y - centre.y) < radius)
+          visit(x, y, double(picture.at<std::uint8_t>(y, x)));
+  };
+  each([&](int, int, double v) { paper = std::max(paper, v), ink = std::min(ink, v); });
+  double sum = 0;
+  cv::Point2d moment(0, 0);
+  each([&](int x, int y, double v) {
+    const double weight = std::clamp((0.9 * paper + 0.1 * ink - v) / (0.8 * (paper - ink)), 0.0, 1.0);
+    sum += weight, moment += weight * cv::Point2d(x, y);
+  });
+  if (sum > 0) centre = moment / sum;
+}
+
 cv::Ptr<cv::FeatureDetector> blob_detector(const cv::Mat& picture) {
   cv::SimpleBlobDetector::Params params;
   params.minArea = 12;
   params.maxArea = float(picture.total()) / 9;
   params.minDistBetweenBlobs = 3;
   return cv::SimpleBlobDetector::create(params);
+}
+
+// Each within half the distance to the nearest other.
+void refine_circles(const cv::Mat& picture, Points& centres) {
+  const Points before = centres;
+  for (std::size_t k = 0; k < before.size(); ++k) {
+    double nearest = picture.cols;
+    for (std::size_t other = 0; other < before.size(); ++other)
+      if (other != k) nearest = std::min(nearest, cv::norm(before[k] - before[other]));
+    refine_circle(picture, centres[k], nearest / 2);
+  }
 }
 
 std::vector<FoundPoint> find_circles(const cv::Mat& picture, const PrintedBoard& board) {
@@ -124,6 +174,7 @@ std::vector<FoundPoint> find_circles(const cv::Mat& picture, const PrintedBoard&
       !all(cv::findCirclesGrid(picture, size, found, grid | cv::CALIB_CB_CLUSTERING, detector)))
     return {};
   if (board.kind == BoardKind::circles) unmirror(found, board.count);
+  refine_circles(picture, found);
   std::vector<cv::Point2d> on_board, seen;
   for (const glm::dvec3& point : board_points(board)) on_board.emplace_back(point.x, point.y);
   for (const cv::Point2f& point : found) seen.emplace_back(point);
@@ -141,65 +192,83 @@ std::vector<FoundPoint> find_circles(const cv::Mat& picture, const PrintedBoard&
 
 bool alike(double a, double b, double contrast) { return std::abs(a - b) < 0.3 * contrast; }
 
-// The four squares around a corner, from its neighbours along the row and the column.
-bool is_corner_evenly_lit(const cv::Mat& picture, const cv::Point2d& at, const cv::Point2d& right,
-                          const cv::Point2d& down) {
-  const double a = value_at(picture, at + 0.3 * (right + down)),
-               b = value_at(picture, at + 0.3 * (down - right));
-  const double c = value_at(picture, at - 0.3 * (right + down)),
-               d = value_at(picture, at + 0.3 * (right - down));
-  const double contrast = std::abs(a + c - b - d) / 2;
-  return alike(a, c, contrast) && alike(b, d, contrast);
-}
-
-// Paper around a circle, by less than half of what is between it and the next.
-bool is_circle_evenly_lit(const cv::Mat& picture, const cv::Point2d& at, double radius) {
-  constexpr int samples = 16;
-  double low = 255, high = 0;
-  for (int k = 0; k < samples; ++k) {
-    const double angle = 2 * CV_PI * k / samples;
-    const double value = value_at(picture, at + radius * cv::Point2d(std::cos(angle), std::sin(angle)));
-    low = std::min(low, value), high = std::max(high, value);
-  }
-  return alike(low, high, high - value_at(picture, at));
-}
-
 /// Found points by their place on the board.
 struct Grid {
   glm::ivec2 count;
+  std::vector<glm::dvec3> board;
   std::vector<const FoundPoint*> at;
-  Grid(const std::vector<FoundPoint>& found, const glm::ivec2& points)
-      : count(points), at(std::size_t(points.x * points.y)) {
+
+  Grid(const std::vector<FoundPoint>& found, const PrintedBoard& printed)
+      : count(point_count(printed)), board(board_points(printed)), at(board.size()) {
     for (const FoundPoint& p : found) at[std::size_t(p.index)] = &p;
   }
-  // The step along a board axis at a point, from either neighbour; none without one.
-  std::optional<cv::Point2d> step(int i, int j, int di, int dj) const {
-    const glm::dvec2 here = at[std::size_t(j * count.x + i)]->pixel;
+
+  // A neighbour's index, to either side of a point along the row or the column; none without one.
+  std::optional<std::size_t> neighbour(int index, const glm::ivec2& along) const {
+    const glm::ivec2 here(index % count.x, index / count.x);
     for (const int sign : {1, -1}) {
-      const int x = i + sign * di, y = j + sign * dj;
-      if (x < 0 || y < 0 || x >= count.x || y >= count.y || !at[std::size_t(y * count.x + x)]) continue;
-      const glm::dvec2 d = double(sign) * (at[std::size_t(y * count.x + x)]->pixel - here);
-      return cv::Point2d(d.x, d.y);
+      const glm::ivec2 there = here + sign * along;
+      if (there.x < 0 || there.y < 0 || there.x >= count.x || there.y >= count.y) continue;
+      const auto k = std::size_t(there.y * count.x + there.x);
+      if (at[k]) return k;
     }
     return {};
   }
+
+  // Picture pixels per board metre at a point; none without a neighbour along each axis.
+  std::optional<glm::dmat2> picture_from_board(int index) const {
+    const auto right = neighbour(index, {1, 0}), down = neighbour(index, {0, 1});
+    if (!right || !down) return {};
+    const glm::dvec2 here = at[std::size_t(index)]->pixel, origin(board[std::size_t(index)]);
+    const glm::dmat2 pixels(at[*right]->pixel - here, at[*down]->pixel - here);
+    return pixels *
+           glm::inverse(glm::dmat2(glm::dvec2(board[*right]) - origin, glm::dvec2(board[*down]) - origin));
+  }
 };
+
+/// The picture around a point, by board coordinates relative to it.
+struct Around {
+  const cv::Mat& picture;
+  glm::dvec2 pixel;
+  glm::dmat2 picture_from_board;
+  double operator()(const glm::dvec2& x_board) const {
+    const glm::dvec2 at = pixel + picture_from_board * x_board;
+    return value_at(picture, cv::Point2f(float(at.x), float(at.y)));
+  }
+};
+
+// The four squares around a corner, beside the markers where there are any.
+bool is_corner_evenly_lit(const Around& around, const PrintedBoard& board) {
+  const double d = board.spacing_m * std::min(0.3, (1 - board.mark_m / board.spacing_m) / 3);
+  const double a = around({d, d}), b = around({-d, d}), c = around({-d, -d}), e = around({d, -d});
+  const double contrast = std::abs(a + c - b - e) / 2;
+  return alike(a, c, contrast) && alike(b, e, contrast);
+}
+
+// A ring of paper around a circle, halfway to where the next may begin.
+bool is_circle_evenly_lit(const Around& around, const PrintedBoard& board) {
+  constexpr int samples = 16;
+  const double nearest =
+      board.spacing_m * (board.kind == BoardKind::asymmetric_circles ? std::sqrt(2.0) : 1.0);
+  double low = 255, high = 0;
+  for (int k = 0; k < samples; ++k) {
+    const double angle = 2 * CV_PI * k / samples;
+    const double value = around(nearest / 2 * glm::dvec2(std::cos(angle), std::sin(angle)));
+    low = std::min(low, value), high = std::max(high, value);
+  }
+  return alike(low, high, high - around(glm::dvec2(0.0)));
+}
 
 std::vector<FoundPoint> evenly_lit(const cv::Mat& picture, const PrintedBoard& board,
                                    const std::vector<FoundPoint>& found) {
-  const Grid grid(found, point_count(board));
+  const Grid grid(found, board);
   const bool circles = board.kind == BoardKind::circles || board.kind == BoardKind::asymmetric_circles;
-  // On the asymmetric grid a row's circles are two spacings apart.
-  const double ring =
-      (board.mark_m / board.spacing_m + 1) / 4 / (board.kind == BoardKind::asymmetric_circles ? 2 : 1);
   std::vector<FoundPoint> kept;
   for (const FoundPoint& p : found) {
-    const int i = p.index % grid.count.x, j = p.index / grid.count.x;
-    const auto right = grid.step(i, j, 1, 0), down = grid.step(i, j, 0, 1);
-    if (!right || !down) continue;
-    const cv::Point2d at(p.pixel.x, p.pixel.y);
-    if (circles ? is_circle_evenly_lit(picture, at, ring * cv::norm(*right))
-                : is_corner_evenly_lit(picture, at, *right, *down))
+    const auto map = grid.picture_from_board(p.index);
+    if (!map) continue;
+    const Around around{picture, p.pixel, *map};
+    if (circles ? is_circle_evenly_lit(around, board) : is_corner_evenly_lit(around, board))
       kept.push_back(p);
   }
   return kept;
@@ -214,31 +283,44 @@ std::vector<FoundPoint> find_any(const cv::Mat& view, const PrintedBoard& board)
   return evenly_lit(view, board, found);
 }
 
-template <class T>
-Image<float> stretched_mean(const ImageStack<T>& stack) {
-  Image<float> mean(stack.width, stack.height, 0.0f);
-  for (int k = 0; k < stack.count; ++k)
-    for (std::size_t i = 0; i < mean.values.size(); ++i) mean.values[i] += float(stack.picture(k)[i]);
-  const float most = mean.values.empty() ? 0 : *std::max_element(mean.values.begin(), mean.values.end());
+void stretch(Image<float>& picture) {
+  const float most =
+      picture.values.empty() ? 0 : *std::max_element(picture.values.begin(), picture.values.end());
   if (most > 0)
-    for (float& value : mean.values) value /= most;
-  return mean;
+    for (float& value : picture.values) value /= most;
+}
+
+template <class T>
+PrintPicture mean_and_darkest(const ImageStack<T>& stack) {
+  PrintPicture picture{Image<float>(stack.width, stack.height),
+                       Image<float>(stack.width, stack.height, 65535.0f)};
+  for (int k = 0; k < stack.count; ++k) {
+    for (std::size_t i = 0; i < stack.picture_size(); ++i) {
+      const auto value = float(stack.picture(k)[i]);
+      picture.mean.values[i] += value;
+      picture.darkest.values[i] = std::min(picture.darkest.values[i], value);
+    }
+  }
+  stretch(picture.mean), stretch(picture.darkest);
+  return picture;
 }
 
 }  // namespace
 
-std::vector<FoundPoint> find_board(const Image<float>& picture, const PrintedBoard& board) {
-  if (picture.values.empty()) return {};
-  std::vector<FoundPoint> found = find_any(bytes_of(picture, [](double v) { return v; }), board);
-  if (found.size() < 4)
-    found =
-        find_any(bytes_of(picture, [](double v) { return std::log1p(500 * v) / std::log1p(500.0); }), board);
+std::vector<FoundPoint> find_board(const PrintPicture& picture, const PrintedBoard& board) {
+  if (picture.mean.values.empty()) return {};
+  const auto linear = [](double v) { return v; };
+  const auto logarithm = [](double v) { return std::log1p(500 * v) / std::log1p(500.0); };
+  std::vector<FoundPoint> found = find_any(bytes_of(picture.mean, linear), board);
+  if (found.size() < 4) found = find_any(bytes_of(picture.mean, logarithm), board);
+  if (found.size() < 4 && !picture.darkest.values.empty())
+    found = find_any(bytes_of(picture.darkest, linear), board);
   if (found.size() < 4) found.clear();
   return found;
 }
 
-Image<float> mean_picture(const CapturedStack& stack) {
-  return std::visit([](const auto& s) { return stretched_mean(s); }, stack);
+PrintPicture print_picture(const CapturedStack& stack) {
+  return std::visit([](const auto& s) { return mean_and_darkest(s); }, stack);
 }
 
 }  // namespace laterna

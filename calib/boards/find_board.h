@@ -15,6 +15,14 @@ struct FoundPoint {
   glm::dvec2 pixel{0.0};  ///< integer coordinates at pixel centres
 };
 
+/// What a stack of pictures shows of a print, 0 to 1 each, linear.
+struct PrintPicture {
+  /// Where patterns have inverses, or fringes a whole period, the projected light cancels out.
+  Image<float> mean;
+  Image<float> darkest;  ///< the least that each pixel was: the print by other light than the projector's
+};
+PrintPicture print_picture(const CapturedStack& stack);
+
 /// Chessboards by cv::findChessboardCornersSB (Duda and Frese 2018), which needs the whole board, and where
 /// that finds nothing by cv::findChessboardCorners and cornerSubPix; ChArUco boards by cv::aruco, any part of
 /// them; grids of circles by cv::findCirclesGrid, whole.
@@ -27,14 +35,11 @@ struct FoundPoint {
 /// looks the same turned by 180° (is_symmetric()) the first point may be either; the others have one
 /// numbering. Empty: no such board, fewer than 4 points.
 ///
-/// Where the picture shows nothing it is looked at again in the logarithm of its values, in which a print
-/// that is partly lit has the same contrast everywhere. Points at whose sides the light changes are left out,
-/// since its edge is no part of the print: of the four squares around a corner the white ones must be as
-/// bright as each other by three tenths, and the black ones as dark; so must a ring of paper around a circle.
-std::vector<FoundPoint> find_board(const Image<float>& picture, const PrintedBoard& board);
-
-/// The mean of a stack, stretched to 0..1: in patterns with inverses, and in fringes of a whole period, the
-/// projected light cancels out and what is printed is left.
-Image<float> mean_picture(const CapturedStack& stack);
+/// Looked at are the mean picture, its logarithm, in which a print that is lit in part has the same contrast
+/// everywhere, and the darkest picture, in which the projector's light has no edge; the first in which there
+/// is a board counts. Points at whose sides the light changes are left out, since its edge is no part of the
+/// print: of the four squares around a corner the white ones must be as bright as each other by three tenths,
+/// and the black ones as dark; so must a ring of paper around a circle.
+std::vector<FoundPoint> find_board(const PrintPicture& picture, const PrintedBoard& board);
 
 }  // namespace laterna

@@ -221,7 +221,7 @@ TEST(SceneFile, MeshesNeedOneSource) {
   EXPECT_EQ(error_of(""), "scene.toml: there is no [[mesh]], expected at least one");
   EXPECT_EQ(error_of("[[mesh]]\nname = \"a\"\n"),
             "scene.toml:1: [[mesh]] \"a\": 0 of file, shape and board are given, expected one");
-  EXPECT_THAT(error_of(with_mesh("file = \"a.ply\"\n")), HasSubstr("both given"));
+  EXPECT_THAT(error_of(with_mesh("file = \"a.ply\"\n")), HasSubstr("2 of file, shape and board"));
   EXPECT_THAT(error_of(with_mesh("unit = \"yard\"\n")),
               AllOf(StartsWith("scene.toml:1: "), HasSubstr("yard")));
 }

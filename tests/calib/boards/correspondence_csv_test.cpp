@@ -83,5 +83,26 @@ TEST(CorrespondenceCsv, AMissingFileIsNamed) {
               HasSubstr("/no/such.csv"));
 }
 
+// What is written is read again to the last bit; a corner that the projector does not sight keeps its row.
+TEST(CorrespondenceCsv, WrittenIsRead) {
+  const BoardCapture c =
+      parse(header + "3,7,1,2,0.1,10.512345678901234,20.25,30,40.1,1\n3,8,0.3,0,0,5,6,,,0\n");
+  const BoardCapture again = parse(correspondence_csv(c));
+  ASSERT_EQ(again.sightings.size(), 3u);
+  EXPECT_EQ(again.pose_labels, c.pose_labels);
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_EQ(again.sightings[k].device, c.sightings[k].device);
+    EXPECT_EQ(again.sightings[k].corner, c.sightings[k].corner);
+    EXPECT_EQ(again.sightings[k].x_board, c.sightings[k].x_board);
+    EXPECT_EQ(again.sightings[k].pixel, c.sightings[k].pixel);
+  }
+}
+
+TEST(CorrespondenceCsv, OneCameraAndOneProjectorAreWritten) {
+  BoardCapture c = parse(header + "3,7,1,2,0,10,20,30,40,1\n");
+  c.devices.push_back({"third", {10, 10}});
+  EXPECT_THAT(testing::input_error([&] { correspondence_csv(c); }), HasSubstr("3 devices"));
+}
+
 }  // namespace
 }  // namespace laterna
