@@ -1,0 +1,55 @@
+// Many independent jobs: in parallel, journalled, resumable, with the same results in whatever order they
+// ran.
+#pragma once
+
+#include "apps/lab/simulation.h"
+
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace laterna {
+
+/// One thing to do. `work` depends on nothing but what it captures; its result is kept as JSON.
+struct Job {
+  std::string id;  ///< unique among the jobs of a run, the same in every run
+  std::function<nlohmann::json()> work;
+};
+
+struct RunnerOptions {
+  std::filesystem::path folder;  ///< of the journal; made where it is not there
+  std::string fingerprint;    ///< of all that the results depend on beside the ids: the specification's text
+  bool resume = false;        ///< go on where the journal ends
+  bool parallel = true;       ///< false: one after the other, for jobs that measure seconds
+  std::string noun = "jobs";  ///< for progress: "cells", "points"
+};
+
+/// How a job ended.
+struct JobOutcome {
+  nlohmann::json result;  ///< null where not done or crashed
+  std::string crashed;    ///< what was thrown, or that the process died of it twice; empty: it did not
+  bool done = false;      ///< with a result or crashed
+};
+
+struct RunOutcome {
+  std::vector<JobOutcome> jobs;  ///< in the order of the jobs
+  std::size_t done = 0;
+  bool interrupted = false;  ///< by SIGINT or SIGTERM: the rest can be resumed
+};
+
+/// Runs the jobs that the journal has no end of. FOLDER/journal.jsonl gets a line when a job begins and one,
+/// whole, when it ends, so that nothing finished is lost, however the run ends. An exception of a job is its
+/// outcome, not the run's; a job in which the process died is tried once more and then counts as crashed.
+/// SIGINT and SIGTERM let the jobs in hand finish; a second one ends the process. Progress comes at most
+/// every two seconds, with the time left.
+///
+/// Throws InputError where the folder holds a journal and `resume` is off, or it holds none and `resume` is
+/// on; where the journal is of another fingerprint, or is no journal; where it cannot be written. A last line
+/// cut short is no fault.
+RunOutcome run_jobs(const std::vector<Job>& jobs, const RunnerOptions& options,
+                    const Progress& progress = {});
+
+}  // namespace laterna
