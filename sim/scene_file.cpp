@@ -181,24 +181,90 @@ toml::table parse_toml(std::string_view text, const std::string& file_name) {
   }
 }
 
+std::vector<std::string> split(const std::string& path) {
+  std::vector<std::string> keys;
+  for (std::size_t at = 0; at <= path.size();) {
+    const std::size_t dot = std::min(path.find('.', at), path.size());
+    keys.push_back(path.substr(at, dot - at));
+    at = dot + 1;
+  }
+  return keys;
+}
+
+/// Walks from a table down a path, through arrays by index or to their first entry.
+class Override {
+ public:
+  explicit Override(const std::string& text) : text_(text) {
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos) fail("expected KEY=VALUE");
+    keys_ = split(text.substr(0, equals));
+    for (const std::string& key : keys_)
+      if (key.empty()) fail("expected keys joined by single dots");
+    value_ = parse_toml("value = " + text.substr(equals + 1), "override \"" + text + "\"");
+  }
+
+  void apply(toml::table& root) const {
+    toml::table* table = &root;
+    for (std::size_t k = 0; k + 1 < keys_.size(); ++k) table = step(*table, k);
+    table->insert_or_assign(keys_.back(), *value_.get("value"));
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& what) const {
+    throw InputError(fmt::format("override \"{}\": {}", text_, what));
+  }
+  static bool is_index(const std::string& key) {
+    return !key.empty() && key.size() < 7 && key.find_first_not_of("0123456789") == std::string::npos;
+  }
+  // The table under keys_[k]; an index after it is passed over by leaving k on it.
+  toml::table* step(toml::table& table, std::size_t& k) const {
+    toml::node* node = table.get(keys_[k]);
+    if (!node) node = &table.insert_or_assign(keys_[k], toml::table{}).first->second;
+    toml::array* array = node->as_array();
+    if (!array)
+      return node->is_table() ? node->as_table() : (fail(fmt::format("{} is no table", keys_[k])), nullptr);
+    const bool indexed = k + 2 < keys_.size() && is_index(keys_[k + 1]);
+    const std::size_t at = indexed ? std::stoul(keys_[k + 1]) : 0;
+    if (at >= array->size() || !array->get(at)->is_table())
+      fail(fmt::format("{} has {} entries", keys_[k], array->size()));
+    k += indexed;
+    return array->get(at)->as_table();
+  }
+
+  std::string text_;
+  std::vector<std::string> keys_;
+  toml::table value_;
+};
+
 }  // namespace
 
 SceneSpec parse_scene(std::string_view text, const std::string& file_name) {
+  return parse_scene(text, file_name, {});
+}
+
+SceneSpec parse_scene(std::string_view text, const std::string& file_name,
+                      const std::vector<std::string>& overrides) {
   if (text.size() > most_bytes)
     throw InputError(fmt::format("{}: {} bytes, expected at most {}", file_name, text.size(), most_bytes));
   check_toml_bytes(text, file_name);
-  const toml::table table = parse_toml(text, file_name);
+  toml::table table = parse_toml(text, file_name);
+  for (const std::string& text_of_one : overrides) {
+    check_toml_bytes(text_of_one, "override");
+    Override(text_of_one).apply(table);
+  }
   SceneSpec spec;
   read_table(table, {file_name, ""}, spec);
   return spec;
 }
 
-SceneSpec read_scene_spec(const std::filesystem::path& path) {
-  return parse_scene(read_text(path, most_bytes), path.string());
+SceneSpec read_scene_spec(const std::filesystem::path& path) { return read_scene_spec(path, {}); }
+
+SceneSpec read_scene_spec(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
+  return parse_scene(read_text(path, most_bytes), path.string(), overrides);
 }
 
-Scene load_scene(const std::filesystem::path& path) {
-  const SceneSpec spec = read_scene_spec(path);
+Scene load_scene(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
+  const SceneSpec spec = read_scene_spec(path, overrides);
   try {
     return build_scene(spec, path.parent_path());
   } catch (const InputError& error) {

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace laterna {
 
@@ -20,11 +21,20 @@ SceneSpec read_scene_spec(const std::filesystem::path& path);
 /// The same from text; `file_name` begins each message.
 SceneSpec parse_scene(std::string_view text, const std::string& file_name);
 
+/// The same with some keys set to other values after the text is read, in order: "KEY=VALUE" with a TOML
+/// value and a path of keys and indices joined by dots, as "ambient_lx=3", "projector.0.fx=1500.0" or
+/// "camera.sensor.bit_depth=12"; where an index is left out, it is 0. Tables on the way are made where they
+/// are not there, entries of arrays are not. Throws InputError, naming the override, for one that is no such
+/// text or meets no table on its way.
+SceneSpec parse_scene(std::string_view text, const std::string& file_name,
+                      const std::vector<std::string>& overrides);
+SceneSpec read_scene_spec(const std::filesystem::path& path, const std::vector<std::string>& overrides);
+
 /// The scene as TOML. Fields that equal their default are left out; numbers are written to their last bit:
 /// parse_scene(scene_toml(spec), name) == spec for every spec that check() accepts.
 std::string scene_toml(const SceneSpec& spec);
 
-/// build_scene(read_scene_spec(path), the file's folder). Messages begin with the file.
-Scene load_scene(const std::filesystem::path& path);
+/// build_scene(read_scene_spec(path, overrides), the file's folder). Messages begin with the file.
+Scene load_scene(const std::filesystem::path& path, const std::vector<std::string>& overrides = {});
 
 }  // namespace laterna

@@ -9,7 +9,14 @@
 namespace laterna {
 
 /// Exit codes; the README's table documents them.
-enum ExitCode { exit_ok = 0, exit_internal = 1, exit_bad_input = 2, exit_refused = 3, exit_weak = 4 };
+enum ExitCode {
+  exit_ok = 0,
+  exit_internal = 1,
+  exit_bad_input = 2,
+  exit_refused = 3,
+  exit_weak = 4,
+  exit_interrupted = 5
+};
 
 /// Options that every subcommand takes.
 struct Common {
@@ -36,6 +43,7 @@ void add_decode(CLI::App& app, Common& common);
 void add_calibrate(CLI::App& app, Common& common);
 void add_verify(CLI::App& app, Common& common);
 void add_roundtrip(CLI::App& app, Common& common);
+void add_atlas(CLI::App& app, Common& common);
 
 /// A line of progress on standard error, unless --json is on.
 void progress(const Common& common, const std::string& line);

@@ -559,5 +559,36 @@ TEST(SceneFile, ASelfContainedCopyCanBeMoved) {
   EXPECT_EQ(moved.cameras[0].device.intrinsics.cy, 240.125);
 }
 
+TEST(SceneFile, OverridesSetKeysByPath) {
+  const std::string text =
+      "[[mesh]]\nshape = \"plane\"\n[[mesh]]\nshape = \"box\"\n[[camera]]\nsize = [8, 6]\nfx = 9\nposition = [0, 0, 1]\nlook_at = [0, 0, 0]\nup = [0, 1, 0]\n";
+  const auto with = [&](const std::vector<std::string>& overrides) {
+    return parse_scene(text, "s.toml", overrides);
+  };
+  EXPECT_EQ(with({"ambient_lx=3"}).ambient_lx, 3);
+  EXPECT_EQ(with({"mesh.albedo=0.25"}).meshes[0].albedo, 0.25);
+  EXPECT_EQ(with({"mesh.1.albedo=0.25"}).meshes[1].albedo, 0.25);
+  EXPECT_EQ(with({"mesh.1.albedo=0.25", "mesh.1.albedo=0.5"}).meshes[1].albedo, 0.5);
+  EXPECT_EQ(with({"camera.sensor.bit_depth=12"}).cameras[0].sensor.bit_depth, 12);
+  EXPECT_EQ(with({"patterns.kind=\"gray_phase\""}).patterns.parameters.kind, PatternKind::gray_phase);
+  EXPECT_EQ(with({"mesh.translate=[1,2,3]"}).meshes[0].translate, glm::dvec3(1, 2, 3));
+  EXPECT_EQ(with({}), parse_scene(text, "s.toml"));
+}
+
+TEST(SceneFile, BadOverridesAreNamed) {
+  const std::string text = "[[mesh]]\nshape = \"plane\"\n";
+  const auto says = [&](const std::string& override) {
+    return testing::input_error([&] { parse_scene(text, "s.toml", {override}); });
+  };
+  EXPECT_THAT(says("ambient_lx"), ::testing::HasSubstr("expected KEY=VALUE"));
+  EXPECT_THAT(says("ambient_lx="), ::testing::HasSubstr("ambient_lx="));
+  EXPECT_THAT(says("mesh..albedo=1"), ::testing::HasSubstr("single dots"));
+  EXPECT_THAT(says("mesh.1.albedo=1"), ::testing::HasSubstr("mesh has 1 entries"));
+  EXPECT_THAT(says("mesh.shape.x=1"), ::testing::HasSubstr("shape is no table"));
+  EXPECT_THAT(says("mesh.albdo=1"), ::testing::HasSubstr("did you mean \"albedo\""));
+  EXPECT_THAT(says("mesh.albedo=7"), ::testing::HasSubstr("albedo"));
+  EXPECT_FALSE(says("a=" + std::string(5000, '[')).empty());
+}
+
 }  // namespace
 }  // namespace laterna

@@ -1,0 +1,293 @@
+#include "apps/lab/atlas/atlas.h"
+
+#include "apps/lab/atlas/cell_kinds.h"
+#include "apps/lab/grid_file.h"
+#include "calib/median.h"
+#include "sim/error.h"
+#include "sim/text_file.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <map>
+#include <random>
+
+namespace laterna {
+
+namespace {
+
+using Json = nlohmann::json;
+
+const std::vector<std::string> settings{"seeds", "methods", "peer_seeds", "hidden", "long"};
+
+/// What a grid says beside its cells.
+struct GridSettings {
+  int seeds = 20, peer_seeds = 3;
+  std::vector<std::string> methods{"laterna"};
+  bool hidden = false, is_long = false;
+};
+
+GridSettings settings_of(const Grid& grid, const CellKind& kind) {
+  GridSettings s;
+  const auto whole = [&](const char* key, int value) {
+    if (!grid.settings.contains(key)) return value;
+    const Json& given = grid.settings[key];
+    if (!given.is_number_integer() || given.get<long>() < 1 || given.get<long>() > 1000000)
+      throw InputError(
+          fmt::format("{}: {} is {}, expected a whole number from 1", grid.place, key, given.dump()));
+    return given.get<int>();
+  };
+  const auto flag = [&](const char* key) {
+    if (grid.settings.contains(key) && !grid.settings[key].is_boolean())
+      throw InputError(
+          fmt::format("{}: {} is {}, expected true or false", grid.place, key, grid.settings[key].dump()));
+    return grid.settings.value(key, false);
+  };
+  s.seeds = whole("seeds", s.seeds), s.peer_seeds = whole("peer_seeds", s.peer_seeds);
+  s.hidden = flag("hidden"), s.is_long = flag("long");
+  if (grid.settings.contains("methods")) {
+    const Json& given = grid.settings["methods"];
+    s.methods = given.is_string() ? std::vector{given.get<std::string>()} : std::vector<std::string>{};
+    if (given.is_array())
+      for (const Json& name : given)
+        s.methods.push_back(name.is_string() ? name.get<std::string>() : name.dump());
+  }
+  for (const std::string& method : s.methods)
+    if (std::find(kind.methods.begin(), kind.methods.end(), method) == kind.methods.end())
+      throw InputError(fmt::format("{}: no method \"{}\" for {}, expected some of {}", grid.place, method,
+                                   kind.name, fmt::join(kind.methods, ", ")));
+  return s;
+}
+
+/// A cell that is to be run.
+struct Planned {
+  AtlasCell cell;
+  CellTrial trial;
+  int seeds = 0;
+};
+
+void plan_grid(const Grid& grid, const std::filesystem::path& folder, const AtlasOptions& options,
+               std::vector<Planned>& planned) {
+  const CellKind& kind = cell_kind(grid.kind, grid.place);
+  const GridSettings s = settings_of(grid, kind);
+  if (s.is_long && !options.long_run && options.cell.empty()) return;
+  for (const GridCell& cell : cells_of(grid)) {
+    const CellTrial trial = kind.prepare(cell.values, grid.place, folder);
+    for (const std::string& method : s.methods) {
+      const bool wanted = options.methods.empty() || std::find(options.methods.begin(), options.methods.end(),
+                                                               method) != options.methods.end();
+      if (!wanted || !cell.name.starts_with(options.cell)) continue;
+      AtlasCell empty;
+      empty.grid = grid.name, empty.name = cell.name, empty.kind = kind.name, empty.method = method;
+      empty.values = cell.values, empty.hidden = s.hidden;
+      planned.push_back({std::move(empty), trial, method == kind.methods.front() ? s.seeds : s.peer_seeds});
+    }
+  }
+}
+
+// Fowler, Noll and Vo's hash, so that a cell's seeds are the same on every platform.
+std::uint64_t hash_of(std::string_view text) {
+  std::uint64_t hash = 14695981039346656037U;
+  for (const char c : text) hash = (hash ^ std::uint8_t(c)) * 1099511628211U;
+  return hash;
+}
+
+std::uint64_t seed_of(const AtlasCell& cell, std::uint64_t seed, int k) {
+  std::seed_seq sequence{std::uint32_t(hash_of(cell.name)), std::uint32_t(hash_of(cell.name) >> 32),
+                         std::uint32_t(seed), std::uint32_t(seed >> 32), std::uint32_t(k)};
+  std::array<std::uint32_t, 2> words{};
+  sequence.generate(words.begin(), words.end());
+  return std::uint64_t(words[0]) << 32 | words[1];
+}
+
+Graded try_one(const Planned& planned, std::uint64_t seed) {
+  try {
+    return planned.trial(planned.cell.method, seed);
+  } catch (const std::exception& error) {
+    return {Outcome::crashed, NAN, NAN, error.what()};
+  }
+}
+
+// A reason without its numbers, so that seeds of one cell have one.
+std::string without_numbers(const std::string& text) {
+  std::string plain;
+  for (std::size_t k = 0; k < text.size(); ++k) {
+    const char c = text[k];
+    const bool in_word =
+        k > 0 && (std::isalpha(static_cast<unsigned char>(text[k - 1])) || text[k - 1] == '_');
+    const bool digit = std::isdigit(static_cast<unsigned char>(c)) && !in_word;
+    if (!digit) {
+      plain += c;
+      continue;
+    }
+    while (k + 1 < text.size() &&
+           (std::isdigit(static_cast<unsigned char>(text[k + 1])) || text[k + 1] == '.' ||
+            (text[k + 1] == 'e' && k + 2 < text.size() && (text[k + 2] == '-' || text[k + 2] == '+')) ||
+            ((text[k + 1] == '-' || text[k + 1] == '+') && text[k] == 'e')))
+      ++k;
+    plain += '#';
+  }
+  return plain;
+}
+
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json run_cell(const Planned& planned, std::uint64_t seed) {
+  std::string letters;
+  std::vector<double> errors, predictions;
+  std::map<std::string, int> reasons;
+  for (int k = 0; k < planned.seeds; ++k) {
+    const Graded graded = try_one(planned, seed_of(planned.cell, seed, k));
+    letters += outcome_letters[std::size_t(graded.outcome)];
+    if (std::isfinite(graded.error_px)) errors.push_back(graded.error_px);
+    if (std::isfinite(graded.predicted_px)) predictions.push_back(graded.predicted_px);
+    if (!graded.reason.empty()) ++reasons[without_numbers(graded.reason)];
+  }
+  std::vector<std::pair<std::string, int>> sorted(reasons.begin(), reasons.end());
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [](const auto& a, const auto& b) { return a.second > b.second; });
+  sorted.resize(std::min<std::size_t>(sorted.size(), 3));
+  return {{"letters", letters},
+          {"error_px", errors.empty() ? Json(nullptr) : number(median(errors))},
+          {"predicted_px", predictions.empty() ? Json(nullptr) : number(median(predictions))},
+          {"reasons", sorted}};
+}
+
+void fill(AtlasCell& cell, const JobOutcome& outcome, int seeds) {
+  if (!outcome.crashed.empty()) {
+    cell.letters = std::string(std::size_t(seeds), outcome_letters[std::size_t(Outcome::crashed)]);
+    cell.reasons = {{outcome.crashed, seeds}};
+  } else {
+    const auto value = [&](const char* key) {
+      return outcome.result[key].is_null() ? NAN : outcome.result[key].get<double>();
+    };
+    cell.letters = outcome.result["letters"].get<std::string>();
+    cell.error_px = value("error_px"), cell.predicted_px = value("predicted_px");
+    cell.reasons = outcome.result["reasons"].get<std::vector<std::pair<std::string, int>>>();
+  }
+  for (const char letter : cell.letters) ++cell.counts[outcome_letters.find(letter)];
+}
+
+std::vector<Planned> sampled(std::vector<Planned> planned, const AtlasOptions& options) {
+  if (options.sample <= 0 || std::size_t(options.sample) >= planned.size()) return planned;
+  std::mt19937_64 random(options.seed);
+  for (std::size_t k = 0; k < std::size_t(options.sample);
+       ++k)  // a partial shuffle, the same on every platform
+    std::swap(planned[k], planned[k + random() % (planned.size() - k)]);
+  planned.resize(std::size_t(options.sample));
+  return planned;
+}
+
+std::string fingerprint(const std::string& text, const AtlasOptions& options) {
+  return fmt::format("atlas {:016x} seed {} long {} methods {} cell {} sample {}", hash_of(text),
+                     options.seed, options.long_run, fmt::join(options.methods, ","), options.cell,
+                     options.sample);
+}
+
+}  // namespace
+
+Atlas run_atlas(const std::filesystem::path& specification, const std::filesystem::path& folder,
+                const AtlasOptions& options, const Progress& progress) {
+  const std::string text = read_text(specification, std::size_t(16) << 20);
+  std::vector<Planned> planned;
+  for (const Grid& grid : parse_grids(text, specification.string(), settings))
+    plan_grid(grid, specification.parent_path(), options, planned);
+  planned = sampled(std::move(planned), options);
+  if (planned.empty()) throw InputError(specification.string() + ": no cell matches what is asked for");
+  std::vector<Job> jobs;
+  for (const Planned& p : planned)
+    jobs.push_back(
+        {p.cell.method + ": " + p.cell.name, [&p, &options] { return run_cell(p, options.seed); }});
+  const RunOutcome run = run_jobs(jobs,
+                                  {.folder = folder,
+                                   .fingerprint = fingerprint(text, options),
+                                   .resume = options.resume,
+                                   .noun = "cells"},
+                                  progress);
+  Atlas atlas{{}, run.interrupted, run.done, jobs.size()};
+  for (std::size_t k = 0; k < planned.size(); ++k) {
+    if (!run.jobs[k].done) continue;
+    fill(planned[k].cell, run.jobs[k], planned[k].seeds);
+    atlas.cells.push_back(std::move(planned[k].cell));
+  }
+  return atlas;
+}
+
+namespace {
+
+Json counts_json(const std::array<int, 5>& counts) {
+  Json json;
+  for (std::size_t o = 0; o < counts.size(); ++o) json[outcome_words[o]] = counts[o];
+  return json;
+}
+
+std::map<std::string, std::array<int, 5>> counts_by_method(const Atlas& atlas, bool hidden) {
+  std::map<std::string, std::array<int, 5>> methods;
+  for (const AtlasCell& cell : atlas.cells) {
+    if (cell.hidden != hidden) continue;
+    auto& counts = methods[cell.method];
+    for (std::size_t o = 0; o < counts.size(); ++o) counts[o] += cell.counts[o];
+  }
+  return methods;
+}
+
+}  // namespace
+
+Json atlas_summary(const Atlas& atlas) {
+  int conditions = 0;
+  std::size_t seeds = 0;
+  for (const AtlasCell& cell : atlas.cells) {
+    if (cell.hidden || cell.method != "laterna") continue;
+    seeds = conditions == 0 ? cell.letters.size() : std::min(seeds, cell.letters.size());
+    ++conditions;
+  }
+  Json json{
+      {"conditions", conditions}, {"seeds", seeds}, {"methods", Json::object()}, {"hidden", Json::object()}};
+  for (const auto& [method, counts] : counts_by_method(atlas, false))
+    json["methods"][method] = counts_json(counts);
+  for (const auto& [method, counts] : counts_by_method(atlas, true))
+    json["hidden"][method] = counts_json(counts);
+  return json;
+}
+
+Json atlas_cells(const Atlas& atlas, const std::string& specification) {
+  Json cells = Json::array();
+  for (const AtlasCell& c : atlas.cells) {
+    Json json = counts_json(c.counts);
+    json.update({{"grid", c.grid},
+                 {"cell", c.name},
+                 {"kind", c.kind},
+                 {"method", c.method},
+                 {"values", c.values},
+                 {"hidden", c.hidden},
+                 {"letters", c.letters},
+                 {"error_px", number(c.error_px)},
+                 {"predicted_px", number(c.predicted_px)},
+                 {"reasons", c.reasons},
+                 {"command",
+                  fmt::format("laterna atlas {} --cell '{}' --method {}", specification, c.name, c.method)}});
+    cells.push_back(std::move(json));
+  }
+  return cells;
+}
+
+std::string atlas_text(const Atlas& atlas) {
+  const Json summary = atlas_summary(atlas);
+  std::string text =
+      fmt::format("{} conditions, at least {} seeds each\n{:<18} {:>8} {:>8} {:>8} {:>8} {:>8}\n",
+                  summary["conditions"].get<int>(), summary["seeds"].get<int>(), "method", "right", "weak",
+                  "refused", "silent", "crashed");
+  for (const bool hidden : {false, true})
+    for (const auto& [method, n] : counts_by_method(atlas, hidden))
+      text += fmt::format("{:<18} {:>8} {:>8} {:>8} {:>8} {:>8}\n", method + (hidden ? " (hidden)" : ""),
+                          n[0], n[1], n[2], n[3], n[4]);
+  for (const AtlasCell& c : atlas.cells)
+    if (c.method == "laterna" && !c.hidden && c.counts[3] + c.counts[4] > 0)
+      text += fmt::format("{} {}: {} (error {:.3g}, predicted {:.3g} px)\n",
+                          c.counts[4] > 0 ? "crashed" : "silently wrong", c.name, c.letters, c.error_px,
+                          c.predicted_px);
+  return text;
+}
+
+}  // namespace laterna
