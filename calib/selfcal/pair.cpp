@@ -11,6 +11,7 @@
 #include <cmath>
 #include <map>
 #include <opencv2/calib3d.hpp>
+#include <optional>
 
 namespace laterna {
 

@@ -154,7 +154,8 @@ bool place_next(const std::vector<SolvedPair>& pairs, const Tracks& tracks, std:
     if (placed[s]) continue;
     if (const auto place = resection(tracks, r.rig, s)) {
       r.rig.station_from_first[s] = *place;
-      return placed[s] = true;
+      placed[s] = 1;
+      return true;
     }
   }
   for (const SolvedPair& p : pairs) {
@@ -167,7 +168,8 @@ bool place_next(const std::vector<SolvedPair>& pairs, const Tracks& tracks, std:
     (placed[a] ? places[b] : places[a]) =
         placed[a] ? compose(*b_from_a, places[a]) : compose(inverse(*b_from_a), places[b]);
     r.units.emplace_back(a, b);
-    return placed[a] = placed[b] = true;
+    placed[a] = placed[b] = 1;
+    return true;
   }
   return false;
 }
@@ -256,7 +258,7 @@ std::optional<Reconstruction> reconstruct(const std::vector<SolvedPair>& pairs, 
                    {{first.pair.a, first.pair.b}}};
   std::vector<char> placed(tracks.stations.size(), 0);
   r.rig.station_from_first[first.pair.b] = *place;
-  placed[first.pair.a] = placed[first.pair.b] = true;
+  placed[first.pair.a] = placed[first.pair.b] = 1;
   triangulate_missing(tracks, placed, r.rig);
   while (std::count(placed.begin(), placed.end(), 0) > 0) {
     if (!place_next(pairs, tracks, placed, r)) return std::nullopt;

@@ -7,6 +7,7 @@
 #include "calib/selfcal/tracks.h"
 #include "sim/rigid.h"
 
+#include <array>
 #include <optional>
 #include <string>
 #include <utility>
