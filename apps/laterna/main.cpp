@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 
 namespace laterna {
 
@@ -28,6 +29,15 @@ std::array<int, 2> parse_size(const std::string& text, const char* option) {
     throw InputError(fmt::format("{}: found \"{}\", expected WIDTHxHEIGHT such as 1920x1080", option, text));
   }
   return size;
+}
+
+void check_output(const std::string& out) {
+  if (out.empty()) return;
+  if (std::filesystem::exists(out))
+    throw InputError(fmt::format("{} exists already, expected a new file", out));
+  const auto parent = std::filesystem::absolute(out).parent_path();
+  if (!std::filesystem::is_directory(parent))
+    throw InputError(fmt::format("{}: no such folder, expected one to write into", parent.string()));
 }
 
 namespace {

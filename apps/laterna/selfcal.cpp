@@ -132,7 +132,8 @@ void add_selfcal(CLI::App& app, Common& common) {
   command->add_option("--table", words->table, "Writes the correspondences as FILE.csv");
   command->add_option("-o,--output", words->out, "File for the result (JSON; default: none written)");
   command->callback([words, &common] {
-    check_output(words->out), check_output(words->table);
+    check_output(words->out);
+    check_output(words->table);
     common.exit_code = run(*words, common);
   });
 }

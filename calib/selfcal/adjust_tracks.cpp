@@ -129,10 +129,10 @@ void build(ceres::Problem& problem, ceres::ParameterBlockOrdering& ordering, con
   if (problem.HasParameterBlock(blocks.station(0))) problem.SetParameterBlockConstant(blocks.station(0));
 }
 
-ceres::Solver::Options solver_options(int max_iterations) {
+ceres::Solver::Options solver_options(int max_iterations, double function_tolerance) {
   ceres::Solver::Options o;
   o.max_num_iterations = max_iterations;
-  o.function_tolerance = 1e-14;
+  o.function_tolerance = function_tolerance;
   o.gradient_tolerance = 1e-14;
   o.parameter_tolerance = 1e-13;
   o.max_num_consecutive_invalid_steps = 50;
@@ -147,7 +147,7 @@ ceres::Solver::Options solver_options(int max_iterations) {
 
 std::optional<TrackAdjustment> adjust_tracks(const Tracks& tracks, const TrackRig& start,
                                              const std::vector<UnitBaseline>& units, const RobustLoss& loss,
-                                             int max_iterations) {
+                                             int max_iterations, double function_tolerance) {
   for (std::size_t i = 0; i < tracks.sightings.size(); ++i) {
     const TrackSighting& s = tracks.sightings[i];
     if (takes_part(tracks, start, i) &&
@@ -156,7 +156,7 @@ std::optional<TrackAdjustment> adjust_tracks(const Tracks& tracks, const TrackRi
   }
   Blocks blocks = blocks_of(start);
   ceres::Problem problem;
-  ceres::Solver::Options options = solver_options(max_iterations);
+  ceres::Solver::Options options = solver_options(max_iterations, function_tolerance);
   options.linear_solver_ordering = std::make_shared<ceres::ParameterBlockOrdering>();
   build(problem, *options.linear_solver_ordering, tracks, start, units, loss, blocks);
   if (problem.NumResidualBlocks() == 0) return std::nullopt;

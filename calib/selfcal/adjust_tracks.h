@@ -25,6 +25,7 @@ struct TrackAdjustment {
 /// something is not finite.
 std::optional<TrackAdjustment> adjust_tracks(const Tracks& tracks, const TrackRig& start,
                                              const std::vector<UnitBaseline>& units,
-                                             const RobustLoss& loss = {}, int max_iterations = 500);
+                                             const RobustLoss& loss = {}, int max_iterations = 500,
+                                             double function_tolerance = 1e-14);
 
 }  // namespace laterna

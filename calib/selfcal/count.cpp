@@ -158,6 +158,7 @@ std::string unknowns_in_words(const Tracks& tracks) {
 NumberCount count_numbers(const Tracks& tracks) {
   validate(tracks);
   NumberCount n;
+  n.stations = tracks.station_count();
   for (const TrackDevice& d : tracks.devices) n.intrinsics += d.free_count();
   std::mt19937_64 random(20240229);  // any rig in general position
   RandomRig rig = random_rig(tracks, random);
@@ -179,7 +180,7 @@ std::string shortage_in_words(const Tracks& tracks, const NumberCount& n) {
   const int m = tracks.station_count();
   const std::size_t common = station_sets(tracks).size();
   if (m < 2) return "there is one station, expected two or more";
-  const bool few = m == 2 ? n.given < 7 : n.places < 5 * (m - 1);
+  const bool few = m == 2 ? n.given < 7 : !n.joined();
   if (few && m == 2)
     return fmt::format("too few points: {} that two stations share give {} numbers, of the 7 that a pair can give",
                        common, n.given);

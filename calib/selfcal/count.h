@@ -14,13 +14,16 @@ struct NumberCount {
   /// derivatives with the points eliminated. A pair gives 7, m stations with long tracks 11m - 15, pairs
   /// alone 7 each; a point seen by s stations adds 2s - 3 until that is reached.
   int given = 0;
+  int stations = 0;
   int intrinsics = 0;  ///< unknown intrinsics of all devices
   int places = 0;      ///< numbers of the stations' places that pixels can tell: 6m - 7 with long tracks
   int unlinked = 0;    ///< 6(m - 1) - places: lengths of baselines that no pixel tells; 1 with long tracks
   int determined = 0;  ///< rank with intrinsics and places together
 
   int needed() const { return intrinsics + places; }
-  bool enough() const { return given >= needed() && determined == needed(); }
+  /// A station that hangs on another by a pair gives 5; fewer leave its place open.
+  bool joined() const { return stations >= 2 && places >= 5 * (stations - 1); }
+  bool enough() const { return joined() && given >= needed() && determined == needed(); }
 };
 
 /// Throws InputError for tracks that validate() refuses.

@@ -195,6 +195,14 @@ std::vector<Intrinsics> device_guesses(const TrackDevice& d, const std::vector<d
   return guesses;
 }
 
+// Guesses that lead to one place: every f within 30 % and every centre within a quarter of the image.
+bool alike(const std::vector<Intrinsics>& a, const std::vector<Intrinsics>& b) {
+  for (std::size_t d = 0; d < a.size(); ++d)
+    if (std::abs(std::log(a[d].fx / b[d].fx)) > 0.26 || std::abs(a[d].cy - b[d].cy) > 0.25 * a[d].size.y)
+      return false;
+  return true;
+}
+
 }  // namespace
 
 const SolvedPair& strongest_pair(const std::vector<SolvedPair>& pairs) {
@@ -243,7 +251,11 @@ std::vector<std::vector<Intrinsics>> intrinsics_guesses(const std::vector<Solved
   for (std::size_t i = 0; i < all.size(); ++i) order.emplace_back(essential_misfit(pairs, tracks, all[i]), i);
   std::sort(order.begin(), order.end());
   std::vector<std::vector<Intrinsics>> best;
-  for (std::size_t i = 0; i < std::min(most, order.size()); ++i) best.push_back(all[order[i].second]);
+  for (std::size_t i = 0; i < order.size() && best.size() < most; ++i) {
+    const auto& guess = all[order[i].second];
+    if (std::none_of(best.begin(), best.end(), [&](const auto& b) { return alike(b, guess); }))
+      best.push_back(guess);
+  }
   return best;
 }
 

@@ -30,7 +30,7 @@ const SolvedPair& strongest_pair(const std::vector<SolvedPair>& pairs);
 double essential_misfit(const std::vector<SolvedPair>& pairs, const Tracks& tracks,
                         const std::vector<Intrinsics>& devices);
 
-/// Guesses worth trying, best first by essential_misfit, at most `most`: focal lengths of 0.4 to 6 image
+/// Different guesses worth trying, best first by essential_misfit, at most `most`: focal lengths of 0.4 to 6 image
 /// widths, Bougnoux's of each pair, and principal points in the middle and half an image above and below.
 std::vector<std::vector<Intrinsics>> intrinsics_guesses(const std::vector<SolvedPair>& pairs,
                                                         const Tracks& tracks, std::size_t most);

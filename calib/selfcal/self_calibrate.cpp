@@ -41,14 +41,14 @@ double full_loss(const Tracks& tracks, const TrackAdjustment& a) {
 }
 
 std::optional<Solution> solve_from(const Tracks& tracks, const Reconstruction& start, int unlinked,
-                                   int max_iterations) {
+                                   int max_iterations, double function_tolerance) {
   std::vector<UnitBaseline> units = start.units;
   units.resize(std::min<std::size_t>(units.size(), std::size_t(std::max(1, unlinked))));
   TrackRig rig = start.rig;
   place_missing_points(tracks, rig);
   std::optional<TrackAdjustment> a;
   for (int round = 0; round < 2; ++round) {
-    a = adjust_tracks(tracks, rig, units, cauchy, max_iterations);
+    a = adjust_tracks(tracks, rig, units, cauchy, max_iterations, function_tolerance);
     if (!a) return std::nullopt;
     rig = a->rig;
     place_missing_points(tracks, rig);
@@ -64,12 +64,12 @@ bool differ(const TrackRig& a, const TrackRig& b, double share) {
 
 // Solutions on all points from the best different ones on some points; best first.
 std::vector<Solution> solve_all(const Tracks& tracks, const std::vector<SolvedPair>& pairs, int unlinked) {
-  const Tracks some = some_points(tracks, 100 * std::size_t(tracks.station_count() - 1));
+  const Tracks some = some_points(tracks, 60 * std::size_t(tracks.station_count() - 1));
   std::vector<std::pair<double, Solution>> first;
-  for (const auto& guess : intrinsics_guesses(pairs, tracks, 12)) {
+  for (const auto& guess : intrinsics_guesses(pairs, tracks, 8)) {
     const auto start = reconstruct(pairs, some, guess);
     if (!start) continue;
-    if (auto s = solve_from(some, *start, unlinked, 100)) {
+    if (auto s = solve_from(some, *start, unlinked, 60, 1e-3)) {
       const double loss = full_loss(some, s->adjustment);
       first.emplace_back(loss, std::move(*s));
     }
@@ -83,7 +83,7 @@ std::vector<Solution> solve_all(const Tracks& tracks, const std::vector<SolvedPa
     });
     if (known || tried.size() == 3) continue;
     tried.push_back(s.adjustment.rig);
-    if (auto solution = solve_from(tracks, {s.adjustment.rig, s.units}, unlinked, 300))
+    if (auto solution = solve_from(tracks, {s.adjustment.rig, s.units}, unlinked, 200, 1e-8))
       all.push_back(std::move(*solution));
   }
   std::stable_sort(all.begin(), all.end(), [&](const auto& a, const auto& b) {
@@ -106,8 +106,9 @@ double variance_of(const Tracks& tracks, const TrackRig& rig, const std::vector<
   return sum / std::max(1.0, freedom(tracks, units));
 }
 
-// Drops misfits until there are none, then least squares on the rest. False where it fails.
-bool refine(SelfCalibration& c, const Solution& solution) {
+// Drops misfits until there are none, with least squares on the rest. None where it fails, else whether it
+// converged.
+std::optional<bool> refine(SelfCalibration& c, const Solution& solution) {
   TrackRig rig = solution.adjustment.rig;
   place_missing_points(c.tracks, rig);
   for (int round = 0; round < 8; ++round) {
@@ -117,14 +118,14 @@ bool refine(SelfCalibration& c, const Solution& solution) {
     // Half of the sightings' r lie below 0.48 sigma for pairs, below 1.18 for long tracks.
     const double variance = std::max(1.0, std::pow(*middle / 0.48, 2));
     auto dropped = drop_misfits(c.tracks, rig, round < 2 ? variance : std::max(1.0, variance_of(c.tracks, rig, c.units)));
-    if (c.tracks.sightings.empty()) return false;
+    if (c.tracks.sightings.empty()) return std::nullopt;
     const auto a = adjust_tracks(c.tracks, rig, c.units, {}, 500);
-    if (!a) return false;
+    if (!a) return std::nullopt;
     rig = c.rig = a->rig;
     c.iterations = a->iterations, c.termination = a->termination;
     const bool done = dropped.empty() && round >= 2;
     std::move(dropped.begin(), dropped.end(), std::back_inserter(c.dropped));
-    if (done) return a->converged;
+    if (done || !a->converged) return a->converged;
   }
   return true;
 }
@@ -266,9 +267,11 @@ void solve_and_judge(SelfCalibration& c, std::vector<SolvedPair>& pairs, const S
   if (all.empty()) return refuse(c, "no placement of the devices explains the points");
   c.units = all.front().units;
   const Tracks before = c.tracks;
-  if (!refine(c, all.front())) return refuse(c, "the adjustment does not converge: " + c.termination);
+  const auto converged = refine(c, all.front());
+  if (!converged) return refuse(c, "no placement of the devices explains the points");
   describe(c, options);
   std::string reason = refusal(c, pairs, options);
+  if (reason.empty() && !*converged) reason = "the adjustment does not converge: " + c.termination;
   if (reason.empty()) reason = ambiguity(all, before, std::max(1.0, c.residual_scale * c.residual_scale));
   if (reason.empty() && options.length && !c.metric)
     reason = "the points of the known length are not placed: too few stations see them, or they are outliers";

@@ -68,6 +68,12 @@ glm::dvec3 nearest_turn(const glm::dmat3& h, const std::array<double, 4>& a, con
   return {w.x(), w.y(), w.z()};
 }
 
+// The sigma of point i as b sees it, a's noise carried over by the homography's change of area.
+double sigma_in_b(const StationPair& pair, std::size_t i, const glm::dmat3& h) {
+  const double w = (h * glm::dvec3(pair.pixel_a[i], 1)).z;
+  return std::hypot(pair.sigma_b[i], pair.sigma_a[i] * std::sqrt(std::abs(glm::determinant(h) / (w * w * w))));
+}
+
 double solve(const StationPair& pair, const TrackDevice& a, const TrackDevice& b, const glm::dmat3& h,
              double ratio_a, double ratio_b) {
   std::array<double, 4> ka = block_of(a, ratio_a), kb = block_of(b, ratio_b);
@@ -76,7 +82,7 @@ double solve(const StationPair& pair, const TrackDevice& a, const TrackDevice& b
   for (std::size_t i = 0; i < pair.size(); ++i)
     problem.AddResidualBlock(
         new ceres::AutoDiffCostFunction<TurnResidual, 2, 4, 4, 3>(new TurnResidual{
-            pair.pixel_a[i], pair.pixel_b[i], 1 / pair.sigma_b[i], one_focal(a), one_focal(b)}),
+            pair.pixel_a[i], pair.pixel_b[i], 1 / sigma_in_b(pair, i, h), one_focal(a), one_focal(b)}),
         nullptr, ka.data(), kb.data(), &turn.x);
   hold(problem, a, ka.data()), hold(problem, b, kb.data());
   ceres::Solver::Options options;
