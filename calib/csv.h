@@ -20,11 +20,11 @@ struct CsvLine {
 
   /// Throws InputError: "file.csv: line 3: cam_x is "one", expected a finite number".
   [[noreturn]] void refuse(int column, const char* expected) const;
-  int whole(int column) const;          ///< from 0
-  double number(int column) const;      ///< finite
-  bool flag(int column) const;          ///< 0 or 1
-  std::string text(int column) const;   ///< not empty
-  bool is_absent(int column) const;     ///< empty or nan
+  int whole(int column) const;         ///< from 0
+  double number(int column) const;     ///< finite
+  bool flag(int column) const;         ///< 0 or 1
+  std::string text(int column) const;  ///< not empty
+  bool is_absent(int column) const;    ///< empty or nan
 };
 
 /// The lines below a header that names all of `required` once and each of `optional` at most once, in any

@@ -24,9 +24,12 @@ Json device_json(const SelfCalibration& c, std::size_t d) {
   const char* keys[] = {"fx", "fy", "cx", "cy"};
   for (int i = 0; i < 4; ++i)
     if (at[i] >= 0) sigma[keys[i]] = number(c.sigma[at[i]]);
-  return {{"name", name}, {"size", {k.size.x, k.size.y}},
-          {"fx", k.fx},   {"fy", k.fy},
-          {"cx", k.cx},   {"cy", k.cy},
+  return {{"name", name},
+          {"size", {k.size.x, k.size.y}},
+          {"fx", k.fx},
+          {"fy", k.fy},
+          {"cx", k.cx},
+          {"cy", k.cy},
           {"lens", {{"model", "LENSMODEL_PINHOLE"}, {"parameters", Json::array()}}},
           {"sigma", sigma}};
 }
@@ -45,7 +48,8 @@ std::string unit_text(const SelfCalibration& c) {
   if (c.metric) return "lengths in metres, by the known length";
   std::string text = "up to scale:";
   for (const auto& [a, b] : c.units)
-    text += fmt::format(" the distance from {} to {} is 1;", c.tracks.station_name(a), c.tracks.station_name(b));
+    text +=
+        fmt::format(" the distance from {} to {} is 1;", c.tracks.station_name(a), c.tracks.station_name(b));
   text.pop_back();
   return text;
 }
@@ -91,8 +95,9 @@ Json selfcal_json(const SelfCalibration& c) {
 }
 
 std::string selfcal_text(const SelfCalibration& c) {
-  std::string text = fmt::format("the pixels give {} numbers; {} are asked for: {} of intrinsics, {} of places\n",
-                                 c.count.given, c.count.needed(), c.count.intrinsics, c.count.places);
+  std::string text =
+      fmt::format("the pixels give {} numbers; {} are asked for: {} of intrinsics, {} of places\n",
+                  c.count.given, c.count.needed(), c.count.intrinsics, c.count.places);
   for (const std::string& words : c.merged) text += words + "\n";
   if (!c.dropped.empty()) text += fmt::format("dropped as outliers: {} sightings\n", c.dropped.size());
   if (c.status != Status::refused) {

@@ -17,8 +17,8 @@ int device_named(Tracks& tracks, const std::string& name, glm::ivec2 size) {
     if (tracks.devices[d].name != name) continue;
     const glm::ivec2 before = tracks.devices[d].intrinsics.size;
     if (before != size)
-      throw InputError(fmt::format("{}: {}x{} pixels in one folder and {}x{} in another, expected the same", name,
-                                   before.x, before.y, size.x, size.y));
+      throw InputError(fmt::format("{}: {}x{} pixels in one folder and {}x{} in another, expected the same",
+                                   name, before.x, before.y, size.x, size.y));
     return int(d);
   }
   tracks.devices.push_back({name, {size, 0, 0, 0, 0}, false, false, false});
@@ -58,8 +58,10 @@ struct PointBook {
 
 }  // namespace
 
-Tracks tracks_of_folders(const std::vector<std::filesystem::path>& folders, const TrackFolderOptions& options) {
-  if (options.stride < 1) throw InputError(fmt::format("stride: found {}, expected 1 or more", options.stride));
+Tracks tracks_of_folders(const std::vector<std::filesystem::path>& folders,
+                         const TrackFolderOptions& options) {
+  if (options.stride < 1)
+    throw InputError(fmt::format("stride: found {}, expected 1 or more", options.stride));
   Tracks tracks;
   tracks.has_sigma = true;
   PointBook book;

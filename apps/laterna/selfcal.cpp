@@ -64,8 +64,8 @@ void describe_devices(Tracks& tracks, const Words& words) {
 KnownLength length_of(const Tracks& tracks, const std::string& text) {
   const std::size_t second = text.rfind(','), first = second == 0 ? second : text.rfind(',', second - 1);
   const auto fail = [&] {
-    return InputError(
-        fmt::format("--length: found \"{}\", expected POINT_A,POINT_B,METRES with two points of the table", text));
+    return InputError(fmt::format(
+        "--length: found \"{}\", expected POINT_A,POINT_B,METRES with two points of the table", text));
   };
   if (second == std::string::npos || first == std::string::npos || first >= second) throw fail();
   const auto point = [&](const std::string& name) {
@@ -113,19 +113,23 @@ void add_selfcal(CLI::App& app, Common& common) {
       "laterna selfcal FILE.csv --size camera=1280x1024 --size projector=1024x768 \\\n"
       "           --known camera=1500,1500,640,512 --assume projector=focal+center",
       "Devices and their placements from correspondences alone, up to scale. FILE.csv has the columns\n"
-      "point,device,station,x,y[,sigma_px]; a station is one placement of one device. Or capture folders, one\n"
+      "point,device,station,x,y[,sigma_px]; a station is one placement of one device. Or capture folders, "
+      "one\n"
       "for each place of the projector, with camera and scene at rest.");
   command->add_option("INPUT", words->inputs, "FILE.csv, or capture folders")->required();
   command->add_option("--size", words->sizes, "NAME=WIDTHxHEIGHT, for each device of a FILE.csv");
   command->add_option("--known", words->known, "NAME=fx,fy,cx,cy: a device whose intrinsics are held");
-  command->add_option("--assume", words->assume,
-                      "NAME=focal, focal+center, focal+aspect or focal+aspect+center: what is solved for; the "
-                      "rest is square pixels and the principal point in the middle");
-  command->add_option("--center", words->centers, "NAME=cx,cy: the principal point elsewhere than in the middle");
+  command->add_option(
+      "--assume", words->assume,
+      "NAME=focal, focal+center, focal+aspect or focal+aspect+center: what is solved for; the "
+      "rest is square pixels and the principal point in the middle");
+  command->add_option("--center", words->centers,
+                      "NAME=cx,cy: the principal point elsewhere than in the middle");
   command->add_option("--length", words->length, "POINT_A,POINT_B,METRES: a known distance gives the scale");
   command->add_option("--tolerance-px", words->options.tolerance_px, "Predicted error above it is weak")
       ->capture_default_str();
-  command->add_option("--stride", words->folders.stride, "For folders: every so many camera pixels is a point")
+  command
+      ->add_option("--stride", words->folders.stride, "For folders: every so many camera pixels is a point")
       ->capture_default_str();
   command->add_flag("--scene-moved", words->folders.scene_moved,
                     "For folders: the scene moved between them, the devices did not");

@@ -14,7 +14,7 @@ namespace laterna {
 namespace {
 
 const std::vector<std::string> table_columns = {"pose",  "corner", "board_x", "board_y", "board_z",
-                                                 "cam_x", "cam_y",  "proj_x",  "proj_y",  "valid"};
+                                                "cam_x", "cam_y",  "proj_x",  "proj_y",  "valid"};
 enum Column { pose, corner, board_x, board_y, board_z, cam_x, cam_y, proj_x, proj_y, valid };
 
 void append(const CsvLine& line, int pose_label, std::vector<Sighting>& sightings) {

@@ -98,12 +98,15 @@ void hold(ceres::Problem& problem, const TrackDevice& device, double* k) {
 
 bool takes_part(const Tracks& tracks, const TrackRig& rig, std::size_t i) {
   const int p = tracks.sightings[i].point;
-  const auto same = [&](std::size_t j) { return j < tracks.sightings.size() && tracks.sightings[j].point == p; };
+  const auto same = [&](std::size_t j) {
+    return j < tracks.sightings.size() && tracks.sightings[j].point == p;
+  };
   return rig.has_point(p) && (same(i + 1) || (i > 0 && same(i - 1)));
 }
 
 void build(ceres::Problem& problem, ceres::ParameterBlockOrdering& ordering, const Tracks& tracks,
-           const TrackRig& rig, const std::vector<UnitBaseline>& units, const RobustLoss& loss, Blocks& blocks) {
+           const TrackRig& rig, const std::vector<UnitBaseline>& units, const RobustLoss& loss,
+           Blocks& blocks) {
   using Cost = ceres::AutoDiffCostFunction<SightingResidual, 2, 4, 6, 3>;
   for (std::size_t i = 0; i < tracks.sightings.size(); ++i) {
     if (!takes_part(tracks, rig, i)) continue;

@@ -49,8 +49,7 @@ RandomRig random_rig(const Tracks& tracks, std::mt19937_64& random) {
   }
   for (int s = 0; s < tracks.station_count(); ++s) {
     Matrix34 place;
-    place << rotation_of(0.8 * random_vector(random)),
-        Eigen::Vector3d(0, 0, 4) + 0.7 * random_vector(random);
+    place << rotation_of(0.8 * random_vector(random)), Eigen::Vector3d(0, 0, 4) + 0.7 * random_vector(random);
     rig.places.push_back(place);
   }
   return rig;
@@ -182,12 +181,14 @@ std::string shortage_in_words(const Tracks& tracks, const NumberCount& n) {
   if (m < 2) return "there is one station, expected two or more";
   const bool few = m == 2 ? n.given < 7 : !n.joined();
   if (few && m == 2)
-    return fmt::format("too few points: {} that two stations share give {} numbers, of the 7 that a pair can give",
-                       common, n.given);
+    return fmt::format(
+        "too few points: {} that two stations share give {} numbers, of the 7 that a pair can give", common,
+        n.given);
   if (few)
-    return fmt::format("too few points: those that stations share give {} numbers, and leave the places of "
-                       "some stations open",
-                       n.given);
+    return fmt::format(
+        "too few points: those that stations share give {} numbers, and leave the places of "
+        "some stations open",
+        n.given);
   const std::string what = m == 2 ? std::string("one pair gives") : fmt::format("{} stations give", m);
   if (n.given < n.needed())
     return fmt::format("{} {} numbers; {} needs {}", what, n.given, unknowns_in_words(tracks), n.needed());

@@ -103,7 +103,8 @@ Matrix3 refine(const StationPair& pair, const Matrix3& start) {
   ceres::Problem problem;
   for (std::size_t i = 0; i < pair.size(); ++i)
     problem.AddResidualBlock(
-        new ceres::AutoDiffCostFunction<SampsonResidual, 1, 7>(new SampsonResidual{form, i}), nullptr, p.data());
+        new ceres::AutoDiffCostFunction<SampsonResidual, 1, 7>(new SampsonResidual{form, i}), nullptr,
+        p.data());
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_QR;
   options.max_num_iterations = 100;
@@ -131,7 +132,8 @@ double robust_scale(std::vector<double> values) {
 
 std::optional<Matrix3> first_matrix(const StationPair& pair) {
   std::vector<double> sigmas;
-  for (std::size_t i = 0; i < pair.size(); ++i) sigmas.push_back(std::hypot(pair.sigma_a[i], pair.sigma_b[i]));
+  for (std::size_t i = 0; i < pair.size(); ++i)
+    sigmas.push_back(std::hypot(pair.sigma_a[i], pair.sigma_b[i]));
   std::nth_element(sigmas.begin(), sigmas.begin() + std::ptrdiff_t(sigmas.size() / 2), sigmas.end());
   const double threshold = std::clamp(3 * sigmas[sigmas.size() / 2], 0.3, 5.0);
   const auto a = cv_points(pair.pixel_a), b = cv_points(pair.pixel_b);
@@ -224,7 +226,8 @@ PairGeometry pair_geometry(const StationPair& pair) {
     g.inlier.clear();
     for (const double v : r) g.inlier.push_back(std::abs(v) <= limit);
     g.inliers = std::size_t(std::count(g.inlier.begin(), g.inlier.end(), 1));
-    if (g.inliers < 8) throw Refusal("fewer than 8 of the points that two stations share agree on where they stand");
+    if (g.inliers < 8)
+      throw Refusal("fewer than 8 of the points that two stations share agree on where they stand");
     f = refine(kept(pair, g.inlier), f);
   }
   const StationPair good = kept(pair, g.inlier);
@@ -236,8 +239,8 @@ PairGeometry pair_geometry(const StationPair& pair) {
   std::vector<double> epipolar;
   for (const double v : r) epipolar.push_back(v * v);
   const double variance = std::max(1.0, g.epipolar_scale * g.epipolar_scale);
-  g.homography_explains = gric(transfer_errors(good, to_eigen(g.homography)), 2, 8, variance) <
-                          gric(epipolar, 3, 7, variance);
+  g.homography_explains =
+      gric(transfer_errors(good, to_eigen(g.homography)), 2, 8, variance) < gric(epipolar, 3, 7, variance);
   return g;
 }
 

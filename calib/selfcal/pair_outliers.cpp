@@ -127,7 +127,9 @@ std::vector<DroppedSighting> drop_pair_outliers(Tracks& tracks, std::vector<Solv
     gone.push_back(at != votes.end() && at->second[1] > 0.5 * at->second[0]);
   }
   const std::vector<TrackSighting> before = tracks.sightings;
-  auto dropped = drop(tracks, gone, [&](std::size_t i) { return votes[{before[i].point, before[i].station}][2]; });
+  auto dropped = drop(tracks, gone, [&](std::size_t i) {
+    return votes[{before[i].point, before[i].station}][2];
+  });
   for (SolvedPair& p : pairs) {
     p.pair = kept(p.pair, p.geometry.inlier);
     p.geometry.inlier.assign(p.pair.size(), 1);

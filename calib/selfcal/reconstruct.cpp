@@ -80,8 +80,9 @@ std::optional<Rigid> relative_place(const SolvedPair& p, const Intrinsics& a, co
       const Rigid identity, place = rigid_of(r, sign * u.col(2));
       std::size_t front = 0;
       for (std::size_t i = 0; i < p.pair.size(); i += step)
-        front += triangulate({{&identity, ray_of(a, p.pair.pixel_a[i])}, {&place, ray_of(b, p.pair.pixel_b[i])}})
-                     .has_value();
+        front +=
+            triangulate({{&identity, ray_of(a, p.pair.pixel_a[i])}, {&place, ray_of(b, p.pair.pixel_b[i])}})
+                .has_value();
       if (front > most) most = front, best = place;
     }
   }
@@ -120,8 +121,8 @@ void triangulate_missing(const Tracks& tracks, const std::vector<char>& placed, 
     const TrackSighting& s = tracks.sightings[i];
     if (i == 0 || tracks.sightings[i - 1].point != s.point) rays.clear();
     if (placed[s.station])
-      rays.push_back({&rig.station_from_first[s.station],
-                      ray_of(of_station(tracks, rig.devices, s.station), s.pixel)});
+      rays.push_back(
+          {&rig.station_from_first[s.station], ray_of(of_station(tracks, rig.devices, s.station), s.pixel)});
     const bool last = i + 1 == tracks.sightings.size() || tracks.sightings[i + 1].point != s.point;
     if (!last || rays.size() < 2 || rig.has_point(s.point)) continue;
     if (const auto x = triangulate(rays)) rig.points[s.point] = *x;
@@ -149,7 +150,8 @@ bool place_next(const std::vector<SolvedPair>& pairs, const Tracks& tracks, std:
   std::vector<std::pair<int, int>> known;  // placed points that a station sees, station
   for (int s = 0; s < tracks.station_count(); ++s) known.emplace_back(0, s);
   for (const TrackSighting& s : tracks.sightings) known[s.station].first += r.rig.has_point(s.point);
-  std::stable_sort(known.begin(), known.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::stable_sort(known.begin(), known.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
   for (const auto& [count, s] : known) {
     if (placed[s]) continue;
     if (const auto place = resection(tracks, r.rig, s)) {
@@ -234,7 +236,8 @@ std::vector<std::vector<Intrinsics>> intrinsics_guesses(const std::vector<Solved
     const auto f = squared_focal_lengths(p.geometry.fundamental, {ka.cx, ka.cy}, {kb.cx, kb.cy});
     for (const auto& [device, squared] : {std::pair(a, f[0]), std::pair(b, f[1])}) {
       const double ratio = std::sqrt(squared) / tracks.devices[device].intrinsics.size.x;
-      if (ratio > 0.2 && ratio < 20 && closed[device].size() < 3) closed[device].push_back(std::sqrt(squared));
+      if (ratio > 0.2 && ratio < 20 && closed[device].size() < 3)
+        closed[device].push_back(std::sqrt(squared));
     }
   }
   std::vector<std::vector<Intrinsics>> all{{}};

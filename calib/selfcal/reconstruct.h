@@ -30,15 +30,16 @@ const SolvedPair& strongest_pair(const std::vector<SolvedPair>& pairs);
 double essential_misfit(const std::vector<SolvedPair>& pairs, const Tracks& tracks,
                         const std::vector<Intrinsics>& devices);
 
-/// Different guesses worth trying, best first by essential_misfit, at most `most`: focal lengths of 0.4 to 6 image
-/// widths, Bougnoux's of each pair, and principal points in the middle and half an image above and below.
+/// Different guesses worth trying, best first by essential_misfit, at most `most`: focal lengths of 0.4 to 6
+/// image widths, Bougnoux's of each pair, and principal points in the middle and half an image above and
+/// below.
 std::vector<std::vector<Intrinsics>> intrinsics_guesses(const std::vector<SolvedPair>& pairs,
                                                         const Tracks& tracks, std::size_t most);
 
 /// Pose of the strongest pair from its essential matrix (the one of four with most points in front), then
-/// station by station by resection from the points at hand (cv::solvePnPRansac; 6 or more), or from a pair with
-/// a placed station, whose baseline is then a unit of its own; points by linear triangulation. Points that come
-/// to lie behind are not placed. None where a station cannot be placed.
+/// station by station by resection from the points at hand (cv::solvePnPRansac; 6 or more), or from a pair
+/// with a placed station, whose baseline is then a unit of its own; points by linear triangulation. Points
+/// that come to lie behind are not placed. None where a station cannot be placed.
 std::optional<Reconstruction> reconstruct(const std::vector<SolvedPair>& pairs, const Tracks& tracks,
                                           const std::vector<Intrinsics>& devices);
 

@@ -74,13 +74,14 @@ std::vector<Solution> solve_all(const Tracks& tracks, const std::vector<SolvedPa
       first.emplace_back(loss, std::move(*s));
     }
   }
-  std::stable_sort(first.begin(), first.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::stable_sort(first.begin(), first.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<Solution> all;
   std::vector<TrackRig> tried;
   for (const auto& [loss, s] : first) {
-    const bool known = std::any_of(tried.begin(), tried.end(), [&, &rig = s.adjustment.rig](const TrackRig& t) {
-      return !differ(t, rig, 0.03);
-    });
+    const bool known =
+        std::any_of(tried.begin(), tried.end(),
+                    [&, &rig = s.adjustment.rig](const TrackRig& t) { return !differ(t, rig, 0.03); });
     if (known || tried.size() == 3) continue;
     tried.push_back(s.adjustment.rig);
     if (auto solution = solve_from(tracks, {s.adjustment.rig, s.units}, unlinked, 200, 1e-8))
@@ -97,7 +98,8 @@ double freedom(const Tracks& tracks, const std::vector<UnitBaseline>& units) {
   int points = 0;
   for (std::size_t i = 0; i < tracks.sightings.size(); ++i)
     points += i == 0 || tracks.sightings[i - 1].point != tracks.sightings[i].point;
-  return 2.0 * double(tracks.sightings.size()) - 3.0 * points - columns_of(tracks).count + double(units.size());
+  return 2.0 * double(tracks.sightings.size()) - 3.0 * points - columns_of(tracks).count +
+         double(units.size());
 }
 
 double variance_of(const Tracks& tracks, const TrackRig& rig, const std::vector<UnitBaseline>& units) {
@@ -117,7 +119,8 @@ std::optional<bool> refine(SelfCalibration& c, const Solution& solution) {
     std::nth_element(r.begin(), middle, r.end());
     // Half of the sightings' r lie below 0.48 sigma for pairs, below 1.18 for long tracks.
     const double variance = std::max(1.0, std::pow(*middle / 0.48, 2));
-    auto dropped = drop_misfits(c.tracks, rig, round < 2 ? variance : std::max(1.0, variance_of(c.tracks, rig, c.units)));
+    auto dropped = drop_misfits(c.tracks, rig,
+                                round < 2 ? variance : std::max(1.0, variance_of(c.tracks, rig, c.units)));
     if (c.tracks.sightings.empty()) return std::nullopt;
     const auto a = adjust_tracks(c.tracks, rig, c.units, {}, 500);
     if (!a) return std::nullopt;
@@ -160,7 +163,8 @@ void describe(SelfCalibration& c, const SelfCalibrationOptions& options) {
   c.fit_rms_px = std::sqrt(sum / double(r.size()));
   for (std::size_t s = 0; s < c.stations.size(); ++s) {
     c.stations[s].rms_px = std::sqrt(c.stations[s].rms_px / std::max(1.0, double(c.stations[s].sightings)));
-    c.stations[s].predicted_px = c.covariance.empty() ? INFINITY : predicted_px(c.tracks, c.rig, c.covariance, int(s));
+    c.stations[s].predicted_px =
+        c.covariance.empty() ? INFINITY : predicted_px(c.tracks, c.rig, c.covariance, int(s));
   }
   c.focal_sigma = INFINITY;
   if (c.covariance.empty()) return;
@@ -173,22 +177,24 @@ void describe(SelfCalibration& c, const SelfCalibrationOptions& options) {
 std::string homography_reason(const Tracks& tracks, const SolvedPair& p) {
   const TrackDevice &a = tracks.devices[tracks.stations[p.pair.a].device],
                     &b = tracks.devices[tracks.stations[p.pair.b].device];
-  const std::string where =
-      fmt::format("the {} points that {} and {} share", p.pair.size(), tracks.station_name(p.pair.a),
-                  tracks.station_name(p.pair.b));
+  const std::string where = fmt::format("the {} points that {} and {} share", p.pair.size(),
+                                        tracks.station_name(p.pair.a), tracks.station_name(p.pair.b));
   const auto turned = turned_scale(p.pair, a, b, p.geometry.homography);
   // A turn fits as well as any homography, but for its fewer parameters: within a factor of 1.5.
   if (!turned)
-    return fmt::format("a homography explains {}: the scene is a plane, or the devices stand in one place; "
-                       "neither tells the intrinsics",
-                       where);
+    return fmt::format(
+        "a homography explains {}: the scene is a plane, or the devices stand in one place; "
+        "neither tells the intrinsics",
+        where);
   if (*turned < 1.5 * std::max(1.0, p.geometry.homography_scale))
-    return fmt::format("no baseline: a turn alone explains {}, so that nothing tells of depth; move the devices "
-                       "apart",
-                       where);
-  return fmt::format("the scene is a plane: a homography explains {} ({:.2f} sigma rms, {:.2f} for any scene); "
-                     "show a scene with relief",
-                     where, p.geometry.homography_scale, p.geometry.epipolar_scale);
+    return fmt::format(
+        "no baseline: a turn alone explains {}, so that nothing tells of depth; move the devices "
+        "apart",
+        where);
+  return fmt::format(
+      "the scene is a plane: a homography explains {} ({:.2f} sigma rms, {:.2f} for any scene); "
+      "show a scene with relief",
+      where, p.geometry.homography_scale, p.geometry.epipolar_scale);
 }
 
 // Both focal lengths of one pair with axes that meet, or nearly; none where that is not it.
@@ -200,9 +206,10 @@ std::optional<std::string> meeting_axes(const Tracks& tracks, const std::vector<
   const glm::dvec2 ca(a.intrinsics.cx, a.intrinsics.cy), cb(b.intrinsics.cx, b.intrinsics.cy);
   const double miss = axes_miss_px(p.geometry.fundamental, ca, cb);
   if (!a.focal || !b.focal || a.center || b.center || miss > 0.03 * b.intrinsics.size.x) return std::nullopt;
-  return fmt::format("both focal lengths are not determined where the optical axes meet: those of {} and {} miss "
-                     "each other by {:.2g} px only; know one focal length, or turn one device aside",
-                     a.name, b.name, miss);
+  return fmt::format(
+      "both focal lengths are not determined where the optical axes meet: those of {} and {} miss "
+      "each other by {:.2g} px only; know one focal length, or turn one device aside",
+      a.name, b.name, miss);
 }
 
 void refuse(SelfCalibration& c, std::string reason) {
@@ -215,9 +222,10 @@ std::string refusal(const SelfCalibration& c, const std::vector<SolvedPair>& pai
                     const SelfCalibrationOptions& options) {
   if (c.focal_sigma <= options.refused_focal) return {};
   if (const auto reason = meeting_axes(c.tracks, pairs)) return *reason;
-  return fmt::format("the points and placements do not determine what is asked for: {} (sigma {:.2g} in natural "
-                     "units, gap {:.1g}); add placements in other directions, or points at other depths",
-                     c.weakest_direction, c.weakest_sigma, c.smallest_gap);
+  return fmt::format(
+      "the points and placements do not determine what is asked for: {} (sigma {:.2g} in natural "
+      "units, gap {:.1g}); add placements in other directions, or points at other depths",
+      c.weakest_direction, c.weakest_sigma, c.smallest_gap);
 }
 
 std::string weakness(const SelfCalibration& c, const SelfCalibrationOptions& options, std::size_t sightings) {
@@ -227,12 +235,13 @@ std::string weakness(const SelfCalibration& c, const SelfCalibrationOptions& opt
                                   c.weakest_direction));
   for (std::size_t s = 0; s < c.stations.size(); ++s)
     if (!(c.stations[s].predicted_px <= options.tolerance_px))
-      reasons.push_back(fmt::format("pixels of {} are predicted to {:.2g} px only", c.tracks.station_name(int(s)),
-                                    c.stations[s].predicted_px));
+      reasons.push_back(fmt::format("pixels of {} are predicted to {:.2g} px only",
+                                    c.tracks.station_name(int(s)), c.stations[s].predicted_px));
   if (c.tracks.has_sigma && c.residual_scale > 2)
-    reasons.push_back(fmt::format("residuals are {:.1f} times what the sigmas explain: a lens that is no pinhole, "
-                                  "or points that moved",
-                                  c.residual_scale));
+    reasons.push_back(
+        fmt::format("residuals are {:.1f} times what the sigmas explain: a lens that is no pinhole, "
+                    "or points that moved",
+                    c.residual_scale));
   if (double(c.dropped.size()) > 0.3 * double(sightings))
     reasons.push_back(fmt::format("{:.0f} % of the sightings are outliers",
                                   100.0 * double(c.dropped.size()) / double(sightings)));
@@ -254,13 +263,14 @@ void check_length(const Tracks& tracks, const KnownLength& length) {
   const auto known = [&](int p) { return p >= 0 && p < tracks.point_count(); };
   if (!known(length.point_a) || !known(length.point_b) || length.point_a == length.point_b ||
       !(length.metres > 0 && std::isfinite(length.metres)))
-    throw InputError(fmt::format("length: {} between points {} and {}, expected a positive number between two "
-                                 "points of the table",
-                                 length.metres, length.point_a, length.point_b));
+    throw InputError(
+        fmt::format("length: {} between points {} and {}, expected a positive number between two "
+                    "points of the table",
+                    length.metres, length.point_a, length.point_b));
 }
 
-void solve_and_judge(SelfCalibration& c, std::vector<SolvedPair>& pairs, const SelfCalibrationOptions& options,
-                     std::size_t sightings) {
+void solve_and_judge(SelfCalibration& c, std::vector<SolvedPair>& pairs,
+                     const SelfCalibrationOptions& options, std::size_t sightings) {
   if (strongest_pair(pairs).geometry.homography_explains)
     return refuse(c, homography_reason(c.tracks, strongest_pair(pairs)));
   const std::vector<Solution> all = solve_all(c.tracks, pairs, c.count.unlinked);
@@ -276,9 +286,10 @@ void solve_and_judge(SelfCalibration& c, std::vector<SolvedPair>& pairs, const S
   if (reason.empty() && options.length && !c.metric)
     reason = "the points of the known length are not placed: too few stations see them, or they are outliers";
   if (reason.empty() && options.length && c.units.size() > 1)
-    reason = fmt::format("{} baselines have lengths of their own, which one known length does not join: let three "
-                         "stations share points",
-                         c.units.size());
+    reason = fmt::format(
+        "{} baselines have lengths of their own, which one known length does not join: let three "
+        "stations share points",
+        c.units.size());
   if (!reason.empty()) return refuse(c, reason);
   c.reason = weakness(c, options, sightings);
   c.status = c.reason.empty() ? Status::ok : Status::weak;

@@ -37,7 +37,8 @@ Matrix free_directions(const Tracks& tracks, const TrackRig& rig, const std::vec
     const std::vector<double> row = baseline_row(tracks, rig, units[i]);
     g.col(Eigen::Index(i)) = Eigen::Map<const Eigen::VectorXd>(row.data(), scale.size()).cwiseProduct(scale);
   }
-  const Matrix q = Eigen::HouseholderQR<Matrix>(g).householderQ() * Matrix::Identity(scale.size(), scale.size());
+  const Matrix q =
+      Eigen::HouseholderQR<Matrix>(g).householderQ() * Matrix::Identity(scale.size(), scale.size());
   return q.rightCols(scale.size() - g.cols());
 }
 

@@ -137,10 +137,11 @@ std::vector<double> eliminated_factor(const Tracks& tracks, const TrackRig& rig)
   Eigen::MatrixXd stack = Eigen::MatrixXd::Zero(n + batch, n);
   Eigen::Index used = n;
   const auto fold = [&] {
-    const Eigen::MatrixXd r = Eigen::HouseholderQR<Eigen::MatrixXd>(stack.topRows(std::max<Eigen::Index>(used, n)))
-                                  .matrixQR()
-                                  .topRows(n)
-                                  .triangularView<Eigen::Upper>();
+    const Eigen::MatrixXd r =
+        Eigen::HouseholderQR<Eigen::MatrixXd>(stack.topRows(std::max<Eigen::Index>(used, n)))
+            .matrixQR()
+            .topRows(n)
+            .triangularView<Eigen::Upper>();
     stack.setZero();
     stack.topRows(n) = r;
     used = n;
@@ -150,7 +151,8 @@ std::vector<double> eliminated_factor(const Tracks& tracks, const TrackRig& rig)
     if (rig.has_point(tracks.sightings[begin].point) && end - begin >= 2) {
       const RowMajor rows = point_rows(tracks, columns, rig, begin, end);
       const Eigen::HouseholderQR<Eigen::MatrixXd> qr(rows.leftCols<3>());
-      const Eigen::MatrixXd rest = (qr.householderQ().adjoint() * rows.rightCols(n)).bottomRows(rows.rows() - 3);
+      const Eigen::MatrixXd rest =
+          (qr.householderQ().adjoint() * rows.rightCols(n)).bottomRows(rows.rows() - 3);
       if (used + rest.rows() > stack.rows()) fold();
       if (used + rest.rows() > stack.rows()) stack.conservativeResize(used + rest.rows(), n);
       stack.middleRows(used, rest.rows()) = rest;
@@ -166,8 +168,8 @@ std::vector<double> eliminated_factor(const Tracks& tracks, const TrackRig& rig)
 std::vector<double> baseline_row(const Tracks& tracks, const TrackRig& rig, const UnitBaseline& baseline) {
   const TrackColumns columns = columns_of(tracks);
   const auto& [a, b] = baseline;
-  const glm::dvec3 between = glm::normalize(center_in_world(rig.station_from_first[b]) -
-                                            center_in_world(rig.station_from_first[a]));
+  const glm::dvec3 between =
+      glm::normalize(center_in_world(rig.station_from_first[b]) - center_in_world(rig.station_from_first[a]));
   std::vector<double> row(columns.count, 0.0);
   for (const auto& [station, sign] : {std::pair(a, -1.0), std::pair(b, 1.0)}) {
     if (columns.station[station] < 0) continue;

@@ -60,8 +60,8 @@ std::vector<double> baseline_row(const Tracks& tracks, const TrackRig& rig, cons
 
 /// What the pixels say about a point, given the rest: a step of the point is follow·(global step) + ε.
 struct PointStep {
-  std::vector<double> follow;       ///< row-major 3×count
-  glm::dmat3 own{0.0};              ///< covariance of ε
+  std::vector<double> follow;  ///< row-major 3×count
+  glm::dmat3 own{0.0};         ///< covariance of ε
 };
 std::optional<PointStep> point_step(const Tracks& tracks, const TrackRig& rig, int point);
 

@@ -101,8 +101,8 @@ std::string tracks_text(const Tracks& tracks) {
   std::string text = tracks.has_sigma ? "point,device,station,x,y,sigma_px\n" : "point,device,station,x,y\n";
   for (const TrackSighting& s : tracks.sightings) {
     const Station& at = tracks.stations[s.station];
-    text += fmt::format("{},{},{},{},{}", tracks.point_names[s.point], tracks.devices[at.device].name, at.name,
-                        s.pixel.x, s.pixel.y);
+    text += fmt::format("{},{},{},{},{}", tracks.point_names[s.point], tracks.devices[at.device].name,
+                        at.name, s.pixel.x, s.pixel.y);
     text += tracks.has_sigma ? fmt::format(",{}\n", s.sigma_px) : "\n";
   }
   return text;
@@ -116,16 +116,17 @@ void validate(const Tracks& tracks) {
   }
   for (const Station& s : tracks.stations)
     if (s.device < 0 || s.device >= int(tracks.devices.size()))
-      throw InputError(fmt::format("station {}: device {}, expected one of {}", s.name, s.device,
-                                   tracks.devices.size()));
+      throw InputError(
+          fmt::format("station {}: device {}, expected one of {}", s.name, s.device, tracks.devices.size()));
   for (std::size_t i = 0; i < tracks.sightings.size(); ++i) {
     const TrackSighting& s = tracks.sightings[i];
     if (s.point < 0 || s.point >= tracks.point_count() || s.station < 0 ||
         s.station >= tracks.station_count() || !std::isfinite(s.pixel.x) || !std::isfinite(s.pixel.y) ||
         !(s.sigma_px > 0 && std::isfinite(s.sigma_px)))
-      throw InputError(fmt::format("sighting {}: point {}, station {}, pixel ({}, {}), sigma {}, expected "
-                                   "known ones and finite numbers",
-                                   i, s.point, s.station, s.pixel.x, s.pixel.y, s.sigma_px));
+      throw InputError(
+          fmt::format("sighting {}: point {}, station {}, pixel ({}, {}), sigma {}, expected "
+                      "known ones and finite numbers",
+                      i, s.point, s.station, s.pixel.x, s.pixel.y, s.sigma_px));
     if (i > 0 && std::pair(tracks.sightings[i - 1].point, tracks.sightings[i - 1].station) >=
                      std::pair(s.point, s.station))
       throw InputError(fmt::format("sighting {}: expected each once, sorted by point and station", i));
@@ -148,11 +149,15 @@ TrackDevice device_in_words(const std::string& name, glm::ivec2 size, const std:
     return d;
   }
   for (const std::string_view word : split_trimmed(assume, '+')) {
-    bool* free = word == "focal" ? &d.focal : word == "aspect" ? &d.aspect : word == "center" ? &d.center : nullptr;
+    bool* free = word == "focal"    ? &d.focal
+                 : word == "aspect" ? &d.aspect
+                 : word == "center" ? &d.center
+                                    : nullptr;
     if (!free || *free || !assume.starts_with("focal"))
-      throw InputError(fmt::format("{}: assumed is \"{}\", expected focal, focal+center, focal+aspect or "
-                                   "focal+aspect+center",
-                                   name, assume));
+      throw InputError(
+          fmt::format("{}: assumed is \"{}\", expected focal, focal+center, focal+aspect or "
+                      "focal+aspect+center",
+                      name, assume));
     *free = true;
   }
   if (!center.empty()) {

@@ -71,7 +71,8 @@ glm::dvec3 nearest_turn(const glm::dmat3& h, const std::array<double, 4>& a, con
 // The sigma of point i as b sees it, a's noise carried over by the homography's change of area.
 double sigma_in_b(const StationPair& pair, std::size_t i, const glm::dmat3& h) {
   const double w = (h * glm::dvec3(pair.pixel_a[i], 1)).z;
-  return std::hypot(pair.sigma_b[i], pair.sigma_a[i] * std::sqrt(std::abs(glm::determinant(h) / (w * w * w))));
+  return std::hypot(pair.sigma_b[i],
+                    pair.sigma_a[i] * std::sqrt(std::abs(glm::determinant(h) / (w * w * w))));
 }
 
 double solve(const StationPair& pair, const TrackDevice& a, const TrackDevice& b, const glm::dmat3& h,

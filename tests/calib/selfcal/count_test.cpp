@@ -8,13 +8,16 @@ using ::testing::HasSubstr;
 
 namespace {
 
-TrackDevice known(const char* name) { return {name, {{1280, 1024}, 1800, 1800, 640, 512}, false, false, false}; }
+TrackDevice known(const char* name) {
+  return {name, {{1280, 1024}, 1800, 1800, 640, 512}, false, false, false};
+}
 TrackDevice unknown(const char* name, bool center, bool aspect = false) {
   return {name, {{1024, 768}, 0, 0, 512, 384}, true, aspect, center};
 }
 
 // A camera, and a projector in so many places. `points` lists which stations share how many.
-Tracks stations(std::vector<TrackDevice> devices, int places, std::vector<std::pair<std::vector<int>, int>> points) {
+Tracks stations(std::vector<TrackDevice> devices, int places,
+                std::vector<std::pair<std::vector<int>, int>> points) {
   Tracks t;
   t.devices = std::move(devices);
   t.stations.push_back({0, "a"});
@@ -34,7 +37,8 @@ TEST(NumberCount, LongTracks) {
   for (int m = 2; m <= 5; ++m) {
     std::vector<int> all;
     for (int s = 0; s < m; ++s) all.push_back(s);
-    const NumberCount n = count_numbers(stations({known("camera"), unknown("projector", true)}, m - 1, {{all, 30}}));
+    const NumberCount n =
+        count_numbers(stations({known("camera"), unknown("projector", true)}, m - 1, {{all, 30}}));
     EXPECT_EQ(n.given, 11 * m - 15);
     EXPECT_EQ(n.places, 6 * m - 7);
     EXPECT_EQ(n.unlinked, 1);
@@ -44,16 +48,17 @@ TEST(NumberCount, LongTracks) {
 }
 
 TEST(NumberCount, PairsAloneGiveSevenEach) {
-  const NumberCount n =
-      count_numbers(stations({known("camera"), unknown("projector", true)}, 3, {{{0, 1}, 20}, {{0, 2}, 20}, {{0, 3}, 20}}));
+  const NumberCount n = count_numbers(
+      stations({known("camera"), unknown("projector", true)}, 3, {{{0, 1}, 20}, {{0, 2}, 20}, {{0, 3}, 20}}));
   EXPECT_EQ(n.given, 21);
-  EXPECT_EQ(n.places, 15);    // five each
-  EXPECT_EQ(n.unlinked, 3);   // no baseline's length is linked to another's
-  EXPECT_TRUE(n.enough());    // 3 + 15 = 18
+  EXPECT_EQ(n.places, 15);   // five each
+  EXPECT_EQ(n.unlinked, 3);  // no baseline's length is linked to another's
+  EXPECT_TRUE(n.enough());   // 3 + 15 = 18
 }
 
 TEST(NumberCount, ATriangleOfPairsHasOneScale) {
-  Tracks t = stations({known("camera"), unknown("projector", false)}, 2, {{{0, 1}, 20}, {{0, 2}, 20}, {{1, 2}, 20}});
+  Tracks t =
+      stations({known("camera"), unknown("projector", false)}, 2, {{{0, 1}, 20}, {{0, 2}, 20}, {{1, 2}, 20}});
   const NumberCount n = count_numbers(t);
   EXPECT_EQ(n.places, 11);
   EXPECT_EQ(n.given, 18);  // 3·7 = 21, of which three are the compatibility of the three matrices: 11·3 - 15

@@ -3,8 +3,8 @@
 #include "tests/calib/selfcal/synthetic_tracks.h"
 #include "tests/testing.h"
 
-#include <Eigen/Dense>
 #include <gmock/gmock.h>
+#include <Eigen/Dense>
 
 using namespace laterna;
 using namespace laterna::testing;
@@ -14,8 +14,9 @@ namespace {
 
 std::string verdict(const SelfCalibration& c) {
   const char* words[] = {"ok", "weak", "refused"};
-  return fmt::format("{}: {} (focal sigma {:.3g}, weakest {:.3g}, gap {:.3g}, scale {:.4g})", words[int(c.status)],
-                     c.reason, c.focal_sigma, c.weakest_sigma, c.smallest_gap, c.residual_scale);
+  return fmt::format("{}: {} (focal sigma {:.3g}, weakest {:.3g}, gap {:.3g}, scale {:.4g})",
+                     words[int(c.status)], c.reason, c.focal_sigma, c.weakest_sigma, c.smallest_gap,
+                     c.residual_scale);
 }
 
 // Without noise what is left is rounding through a bundle with a condition number of some 1e4.
@@ -108,7 +109,8 @@ TEST(SelfCalibrate, OutliersAreNamed) {
   std::uniform_real_distribution<double> uniform(0, 1);
   std::size_t spoilt = 0;
   for (TrackSighting& s : t.tracks.sightings)
-    if (s.station > 0 && uniform(random) < 0.2) s.pixel = {1024 * uniform(random), 768 * uniform(random)}, ++spoilt;
+    if (s.station > 0 && uniform(random) < 0.2)
+      s.pixel = {1024 * uniform(random), 768 * uniform(random)}, ++spoilt;
   const SelfCalibration c = self_calibrate(t.tracks);
   ASSERT_NE(c.status, Status::refused) << verdict(c);
   const TrackColumns columns = columns_of(c.tracks);
@@ -148,8 +150,9 @@ TEST_P(SelfCalibrateRefuses, APlane) {
   auto points = bumpy_points(200, random);
   for (glm::dvec3& x : points) x.z = 2.2 + 0.4 * x.x - 0.2 * x.y;
   for (const bool both : {false, true}) {
-    TrackTruth t = track_truth({test_camera(), test_projector()}, {0, 1},
-                               {place_at({0, 0, 0}, {0, 0.25, 2.2}), place_at({0.7, 0.1, 0.2}, {0, -0.2, 2.2})}, points);
+    TrackTruth t =
+        track_truth({test_camera(), test_projector()}, {0, 1},
+                    {place_at({0, 0, 0}, {0, 0.25, 2.2}), place_at({0.7, 0.1, 0.2}, {0, -0.2, 2.2})}, points);
     forget(t.tracks, 1, false);
     if (both) forget(t.tracks, 0, false);
     expect_refused(t.tracks, "the scene is a plane");
@@ -176,7 +179,8 @@ TEST_P(SelfCalibrateRefuses, AxesThatMeet) {
 TEST_P(SelfCalibrateRefuses, OnlyTheSceneMoved) {
   TrackTruth t = one_pair(random, 300);
   forget(t.tracks, 1, true);
-  expect_refused(t.tracks, "one pair gives 7 numbers; known camera with unknown f, c_x, c_y of projector needs 8");
+  expect_refused(t.tracks,
+                 "one pair gives 7 numbers; known camera with unknown f, c_x, c_y of projector needs 8");
   // The same, with each scene's projector called another station.
   t.tracks.stations.push_back({1, "again"});
   for (TrackSighting& s : t.tracks.sightings)

@@ -11,8 +11,12 @@
 
 namespace laterna::testing {
 
-inline TrackDevice test_camera() { return {"camera", {{1280, 1024}, 1500, 1500, 660, 500}, false, false, false}; }
-inline TrackDevice test_projector() { return {"projector", {{1024, 768}, 1700, 1700, 512, 700}, false, false, false}; }
+inline TrackDevice test_camera() {
+  return {"camera", {{1280, 1024}, 1500, 1500, 660, 500}, false, false, false};
+}
+inline TrackDevice test_projector() {
+  return {"projector", {{1024, 768}, 1700, 1700, 512, 700}, false, false, false};
+}
 
 struct TrackTruth {
   Tracks tracks;  ///< without noise; sigmas as given
@@ -36,8 +40,8 @@ inline std::vector<glm::dvec3> bumpy_points(int count, std::mt19937_64& random, 
   return points;
 }
 
-/// Every point in every station; places are from the first station. The truth has baseline 1 between the first
-/// two.
+/// Every point in every station; places are from the first station. The truth has baseline 1 between the
+/// first two.
 inline TrackTruth track_truth(std::vector<TrackDevice> devices, const std::vector<int>& device_of_station,
                               const std::vector<Rigid>& from_world, const std::vector<glm::dvec3>& points,
                               double sigma_px = 0.1) {
@@ -67,7 +71,8 @@ inline void forget(Tracks& tracks, int device, bool center, bool aspect = false)
   TrackDevice& d = tracks.devices[device];
   d.focal = true, d.center = center, d.aspect = aspect;
   d.intrinsics.fx = d.intrinsics.fy = 0;
-  if (center) d.intrinsics.cx = (d.intrinsics.size.x - 1) / 2.0, d.intrinsics.cy = (d.intrinsics.size.y - 1) / 2.0;
+  if (center)
+    d.intrinsics.cx = (d.intrinsics.size.x - 1) / 2.0, d.intrinsics.cy = (d.intrinsics.size.y - 1) / 2.0;
 }
 
 inline void add_noise(Tracks& tracks, std::mt19937_64& random) {
@@ -87,10 +92,11 @@ inline TrackTruth one_pair(std::mt19937_64& random, int points = 200, double sig
 
 /// The same camera, the projector in three places around the scene.
 inline TrackTruth three_places(std::mt19937_64& random, int points = 200, double sigma_px = 0.1) {
-  return track_truth({test_camera(), test_projector()}, {0, 1, 1, 1},
-                     {place_at({0, 0, 0}, {0, 0, 2.2}), place_at({0.8, 0.1, 0.2}, {0, -0.3, 2.2}, 0.1),
-                      place_at({-0.7, -0.5, 0}, {0.1, -0.2, 2.3}, 1.3), place_at({0.2, 0.7, 0.3}, {0, -0.2, 2.1}, -0.6)},
-                     bumpy_points(points, random), sigma_px);
+  return track_truth(
+      {test_camera(), test_projector()}, {0, 1, 1, 1},
+      {place_at({0, 0, 0}, {0, 0, 2.2}), place_at({0.8, 0.1, 0.2}, {0, -0.3, 2.2}, 0.1),
+       place_at({-0.7, -0.5, 0}, {0.1, -0.2, 2.3}, 1.3), place_at({0.2, 0.7, 0.3}, {0, -0.2, 2.1}, -0.6)},
+      bumpy_points(points, random), sigma_px);
 }
 
 /// The global step from a truth to an estimate, the truth scaled to the estimate's unit baseline.

@@ -63,7 +63,8 @@ TEST(TrackRig, BaselineRowIsTheDerivative) {
   auto random = generator();
   const TrackTruth t = three_places(random, 5);
   const auto distance = [](const TrackRig& rig) {
-    return glm::length(center_in_world(rig.station_from_first[3]) - center_in_world(rig.station_from_first[1]));
+    return glm::length(center_in_world(rig.station_from_first[3]) -
+                       center_in_world(rig.station_from_first[1]));
   };
   const std::vector<double> row = baseline_row(t.tracks, t.rig, {1, 3});
   for (std::size_t i = 0; i < row.size(); ++i) {
