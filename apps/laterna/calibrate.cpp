@@ -37,15 +37,6 @@ Scene believed_scene(const Words& words, const CaptureManifest& manifest) {
   return load_scene(std::filesystem::path(words.paths[0]) / manifest.scene);
 }
 
-void check_output(const std::string& out) {
-  if (out.empty()) return;
-  if (std::filesystem::exists(out))
-    throw InputError(fmt::format("{} exists already, expected a new file", out));
-  const auto parent = std::filesystem::absolute(out).parent_path();
-  if (!std::filesystem::is_directory(parent))
-    throw InputError(fmt::format("{}: no such folder, expected one to write into", parent.string()));
-}
-
 bool is_table(const std::string& path) {
   return std::filesystem::exists(path) ? !std::filesystem::is_directory(path) : path.ends_with(".csv");
 }
