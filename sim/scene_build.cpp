@@ -1,5 +1,6 @@
 #include "sim/scene_build.h"
 
+#include "sim/believed.h"
 #include "sim/device_spec.h"
 #include "sim/effect_checks.h"
 #include "sim/error.h"
@@ -167,6 +168,15 @@ void add_displacement_map(Object& object, const std::filesystem::path& folder) {
       std::make_shared<const Image<float>>(read_fractions(folder / file, Encoding::linear));
 }
 
+void add_believed_mesh(Object& object, const std::filesystem::path& folder) {
+  if (object.belief.file.empty()) return;
+  about("believed", [&] {
+    const Mesh mesh = read_mesh(folder / object.belief.file);
+    expect_near(mesh, object.world_from_object);
+    object.believed_mesh = std::make_shared<const Mesh>(mesh);
+  });
+}
+
 Object build_object(const MeshSpec& spec, const std::filesystem::path& folder, Maps& maps) {
   Object object{.name = spec.name,
                 .mesh = {},
@@ -176,7 +186,9 @@ Object build_object(const MeshSpec& spec, const std::filesystem::path& folder, M
                 .effects = spec.effects,
                 .seed = spec.seed,
                 .normal_map = {},
-                .displacement_map = {}};
+                .displacement_map = {},
+                .belief = spec.believed,
+                .believed_mesh = {}};
   if (spec.file.empty()) {
     object.mesh = make_shape({spec.shape, spec.shape_size, spec.detail, spec.seed});
   } else {
@@ -184,6 +196,7 @@ Object build_object(const MeshSpec& spec, const std::filesystem::path& folder, M
   }
   validate(object.mesh, spec.file.empty() ? spec.shape : spec.file);
   expect_near(object.mesh, object.world_from_object);
+  add_believed_mesh(object, folder);
   add_normal_map(object, folder);
   add_displacement_map(object, folder);
   if (spec.albedo_map.empty()) return object;
@@ -316,7 +329,8 @@ Scene build_scene(const SceneSpec& spec, const std::filesystem::path& folder) {
               .pictures = {},
               .pattern_colour = spec.patterns.colour,
               .mixings = {},
-              .timing = spec.timing};
+              .timing = spec.timing,
+              .believe_truth = spec.believe_truth};
   const SceneSpec named = with_names(spec);
   Maps maps;
   for (const MeshSpec& mesh : named.meshes) {
@@ -335,7 +349,8 @@ Scene build_scene(const SceneSpec& spec, const std::filesystem::path& folder) {
     check(c);
     scene.cameras.push_back({device_of(c.device, folder, what), c.sensor, c.vignetting,
                              about(what, [&] { return vignetting_map(c.vignetting, folder); }),
-                             c.samples_per_pixel, c.optics, c.colour_filter, c.veiling_glare});
+                             c.samples_per_pixel, c.optics, c.colour_filter, c.veiling_glare, c.believed});
+    about(what + ": believed", [&] { believed_device(scene.cameras.back()); });
   }
   switch_off_lenses(scene);
   if (spec.effects.slide)
