@@ -78,7 +78,7 @@ TEST(CameraUncertainty, APointsDerivativeByDifferencesWithALens) {
   }
 }
 
-struct Setup {
+struct Sightings {
   Device projector, camera;
   Correspondences points;
   std::vector<glm::dvec2> camera_pixels;
@@ -87,9 +87,9 @@ struct Setup {
 
 // Points in the projector's volume on planes of many directions, noise-free, that a camera with independent
 // errors saw.
-Setup setup(int n, double sigma_px = 0.1) {
+Sightings sightings(int n, double sigma_px = 0.1) {
   auto random = testing::generator();
-  Setup s{testing::usual_projector(), {}, {}, {}, {2, 2, 1, 1, 5e-4, 5e-4, 5e-4, 1e-3, 1e-3, 1e-3}};
+  Sightings s{testing::usual_projector(), {}, {}, {}, {2, 2, 1, 1, 5e-4, 5e-4, 5e-4, 1e-3, 1e-3, 1e-3}};
   s.camera = camera_beside(s.projector);
   s.points = testing::scattered(s.projector, n, 2, 3, sigma_px, random);
   std::normal_distribution<double> normal;
@@ -107,7 +107,7 @@ Setup setup(int n, double sigma_px = 0.1) {
 }
 
 // The world points that a camera with these errors would give.
-Correspondences seen_by(const Setup& s, const std::vector<double>& step) {
+Correspondences seen_by(const Sightings& s, const std::vector<double>& step) {
   Correspondences c = s.points;
   const Device camera = moved(s.camera, step);
   for (std::size_t i = 0; i < c.world_points.size(); ++i)
@@ -118,7 +118,7 @@ Correspondences seen_by(const Setup& s, const std::vector<double>& step) {
 // 200 cameras drawn from the covariance, each solved on noise-free pixels. A sample's standard deviation of
 // 200 has itself one of 1/√400 = 5 %; 20 % is four of them.
 TEST(CameraUncertainty, SigmasAreThoseOfSampledCameras) {
-  const Setup s = setup(300, 1);
+  const Sightings s = sightings(120, 1);
   const SolveResult told = solve(s.points, s.projector.intrinsics.size);
   ASSERT_EQ(told.covariance_camera.size(), 100u);
   std::mt19937_64 random(testing::seed() + 1);
@@ -135,18 +135,26 @@ TEST(CameraUncertainty, SigmasAreThoseOfSampledCameras) {
     ASSERT_NE(r.status, Status::refused) << r.reason;
     const auto e = testing::tangent_error(s.projector, r.estimate);
     for (int i = 0; i < 10; ++i) sum2[i] += e[i] * e[i];
-    chi2 += r.reduced_chi2 * (2 * 300 - 10);
+    chi2 += r.reduced_chi2 * (2 * 120 - 10);
     volume2 += std::pow(verify(s.projector, r.estimate, {}, s.points.world_points).volume.rms, 2);
   }
-  for (int i = 0; i < 10; ++i)
-    EXPECT_NEAR(std::sqrt(sum2[i] / draws) / std::sqrt(told.covariance_camera[11 * i]), 1, 0.2) << i;
+  double worst = 0;
+  for (int i = 0; i < 10; ++i) {
+    const double ratio = std::sqrt(sum2[i] / draws / told.covariance_camera[11 * i]);
+    EXPECT_NEAR(ratio, 1, 0.2) << i;
+    worst = std::max(worst, std::abs(ratio - 1));
+  }
+  RecordProperty("worst_sigma_deviation", std::to_string(worst));
+  RecordProperty("volume_ratio",
+                 std::to_string(std::sqrt(volume2 / draws) / told.predicted_volume_rms_camera_px));
+  RecordProperty("chi2_ratio", std::to_string(chi2 / draws / told.expected_camera_chi2));
   EXPECT_NEAR(std::sqrt(volume2 / draws) / told.predicted_volume_rms_camera_px, 1, 0.2);
-  // A sum of few squared normals scatters more: the mean of 200 by at most √(2/200) = 10 % were it one.
+  // Were one direction to make it all, the mean of 200 squared normals would scatter by √(2/200) = 10 %.
   EXPECT_NEAR(chi2 / draws / told.expected_camera_chi2, 1, 0.4);
 }
 
 TEST(CameraUncertainty, TheVerdictUsesTheTotal) {
-  Setup s = setup(400);
+  Sightings s = sightings(400);
   auto random = testing::generator();
   testing::add_noise(s.points, random);
   Correspondences certain = s.points;
@@ -167,7 +175,7 @@ TEST(CameraUncertainty, TheVerdictUsesTheTotal) {
 
 // A certain camera among them, or one whose covariance is 0, leaves no trace.
 TEST(CameraUncertainty, CertainCamerasAddNothing) {
-  Setup s = setup(200);
+  Sightings s = sightings(200);
   s.points.cameras[0].covariance.assign(100, 0.0);
   const SolveResult zero = solve(s.points, s.projector.intrinsics.size);
   s.points.cameras[0].covariance.clear();
@@ -179,7 +187,7 @@ TEST(CameraUncertainty, CertainCamerasAddNothing) {
 
 // Residuals that the camera's uncertainty explains are no reason for weak; without it they are.
 TEST(CameraUncertainty, ExplainedResidualsAreNoMisfit) {
-  Setup s = setup(400);
+  Sightings s = sightings(400, 0.02);
   SolveOptions options;
   options.tolerance_px = 100;  // the predicted error is another matter
   const std::vector<double> step = {2, -2, 1, 1, 5e-4, -5e-4, 5e-4, 1e-3, -1e-3, 1e-3};  // one sigma each
@@ -190,7 +198,7 @@ TEST(CameraUncertainty, ExplainedResidualsAreNoMisfit) {
 }
 
 TEST(CameraUncertainty, BadInputIsNamed) {
-  const Setup s = setup(20);
+  const Sightings s = sightings(20);
   const auto error = [&](auto&& change) {
     Correspondences c = s.points;
     change(c);
