@@ -1,5 +1,6 @@
 #include "calib/solve.h"
 
+#include "calib/camera_uncertainty.h"
 #include "calib/candidates.h"
 #include "calib/covariance.h"
 #include "calib/verify.h"
@@ -80,6 +81,12 @@ bool predict(SolveResult& result, const std::vector<glm::dvec3>& world_points) {
   const bool use_clustered = result.clusters_suffice || clustered > independent;
   result.covariance = use_clustered ? result.covariance_clustered : result.covariance_independent;
   result.predicted_volume_rms_px = use_clustered ? clustered : independent;
+  if (!result.covariance_camera.empty()) {
+    result.predicted_volume_rms_camera_px = prediction(result.covariance_camera);
+    for (std::size_t i = 0; i < result.covariance.size(); ++i)
+      result.covariance[i] += result.covariance_camera[i];
+    result.predicted_volume_rms_px = prediction(result.covariance);
+  }
   result.predicted_volume_rms_independent_px = independent;
   for (int i = 0; i < p; ++i) result.sigma.push_back(std::sqrt(std::max(0.0, result.covariance[i * p + i])));
   return volume.size() == std::size_t(16 * 12 * 12);
@@ -94,9 +101,13 @@ std::vector<std::string> weaknesses(const SolveResult& r, const Correspondences&
       fmt::format("{}; the relief is {:.2g} % of the throw", r.weakest_direction, 100 * r.relief_over_throw);
   if (!maps_its_volume) w.push_back("the estimated lens maps no ray to parts of the projector's image");
   if (!(r.predicted_volume_rms_px <= options.tolerance_px)) {
+    const std::string from_camera = r.covariance_camera.empty()
+                                        ? std::string()
+                                        : fmt::format("{:.3g} px of it from the camera's uncertainty; ",
+                                                      r.predicted_volume_rms_camera_px);
     w.push_back(
-        fmt::format("the predicted volume error of {:.3g} px is above the tolerance of {:.3g} px ({})",
-                    r.predicted_volume_rms_px, options.tolerance_px, trade));
+        fmt::format("the predicted volume error of {:.3g} px is above the tolerance of {:.3g} px ({}{})",
+                    r.predicted_volume_rms_px, options.tolerance_px, from_camera, trade));
   }
   const auto& k = r.estimate.intrinsics;
   const double focal_share = std::max(r.sigma[0] / k.fx, r.sigma[1] / k.fy);
@@ -106,7 +117,8 @@ std::vector<std::string> weaknesses(const SolveResult& r, const Correspondences&
         100 * focal_share, trade));
   }
   const double spare = std::max(1.0, 2 * n - p);
-  if (r.residual_scale > 2 * std::sqrt(1 + 5 * std::sqrt(2 / spare))) {
+  const double explained = std::sqrt(1 + 5 * std::sqrt(2 / spare) + r.expected_camera_chi2 / spare);
+  if (r.residual_scale > 2 * explained) {
     w.push_back(
         fmt::format("the residual rms is {:.2g} times what the sigmas explain: lens distortion, wrong "
                     "mesh or outliers",
@@ -177,6 +189,11 @@ SolveResult solve(const Correspondences& c, glm::ivec2 size, const SolveOptions&
   result.covariance_independent = world_covariance(*independent, pose, normalisation);
   const auto clustered = clustered_covariance(points, lens, fit.state, options.loss, fit.factor);
   if (clustered) result.covariance_clustered = world_covariance(*clustered, pose, normalisation);
+  if (!c.cameras.empty()) {
+    const CameraPart part = camera_part(c, normalisation, lens, fit.state, options.loss, fit.factor);
+    result.covariance_camera = world_covariance(part.covariance, pose, normalisation);
+    result.expected_camera_chi2 = part.expected_chi2;
+  }
   result.clusters = points.cluster_count();
   if (!(result.estimate.intrinsics.fx > 0 && result.estimate.intrinsics.fy > 0))
     return refused(result, "the best fit has a negative focal length: the mapping is mirrored");

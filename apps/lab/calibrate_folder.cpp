@@ -1,8 +1,6 @@
 #include "apps/lab/calibrate_folder.h"
 
 #include "apps/lab/trial.h"
-#include "render/effects/displacement.h"
-#include "render/ray_scene.h"
 #include "sim/error.h"
 
 #include <fmt/format.h>
@@ -44,13 +42,11 @@ struct Collected {
 }  // namespace
 
 std::vector<FolderEstimate> calibrate_folder(const std::filesystem::path& folder,
-                                             const CaptureManifest& manifest, const Scene& given,
+                                             const CaptureManifest& manifest, const Scene& scene,
                                              const SolveOptions& solve_options,
                                              const DecodeOptions& decode_options, const Progress& progress) {
-  std::optional<Scene> storage;
-  const Scene& scene = displaced(given, storage);
-  const RayScene rays(scene);
-  std::map<int, PixelArray<glm::dvec3>> points;
+  const ToldScene told(scene);
+  std::map<int, ToldPoints> points;
   std::map<std::string, Collected> projectors;
   for (const CaptureSequence& sequence : manifest.sequences) {
     if (progress)
@@ -59,10 +55,9 @@ std::vector<FolderEstimate> calibrate_folder(const std::filesystem::path& folder
     const DecodedSequence decoded = decode_sequence(folder, sequence, decode_options);
     const DecodedMap& map = decoded.map;
     const int camera = camera_index(scene, sequence, map);
-    if (!points.contains(camera)) {
-      points.emplace(camera, points_world(trace_surface(rays, scene, scene.cameras[camera]), scene));
-    }
+    if (!points.contains(camera)) points.emplace(camera, told.trace(camera));
     Collected& collected = projectors[sequence.projector];
+    collected.correspondences.cameras = told_cameras(scene);
     collected.size = sequence.projector_size;
     for (const std::string& flag : decoded.report.flags)
       collected.flags.push_back(fmt::format("seen by \"{}\": {}", sequence.camera, flag));
