@@ -9,7 +9,9 @@ struct DecodeTimes {
   double gray_over_read = 0;  ///< decode_gray_codes over summing the bytes of the same pictures
   double opencv_over_gray =
       0;  ///< OpenCV's getProjPixel, per pixel, over decode_gray_codes: the same columns and rows
-  double atan2_over_phase = 0;  ///< four-step phase with libm's atan2, over fit_fringe
+  double atan2_over_phase = 0;   ///< mean, c, s and angle with libm's atan2 in double, over fit_fringe
+  double atan2f_over_phase = 0;  ///< the same in float
+  double phase_ns = 0;           ///< fit_fringe, per pixel
 };
 
 /// Throws std::runtime_error where OpenCV decodes something else, or the phases differ by more than 5e-6 rad.

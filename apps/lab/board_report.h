@@ -23,8 +23,10 @@ nlohmann::json board_json(const BoardCalibration& calibration);
 /// The same as a report to read: ladder, parameters with sigmas, poses, how sure the pixels are, verdict.
 std::string board_text(const BoardCalibration& calibration);
 
-/// [{"method", "failure", "fit_rms_px", "held_out_px": {"rms", "folds", "failed"}, "seconds", "projector":
-/// {"fx", "fy", "cx", "cy"}}]: every method on the same sightings.
+/// [{"method", "failure", "fit_rms_px", "held_out_px": {"rms", "folds", "failed"}, "seconds", "over_bound",
+/// "projector":
+/// {"fx", "fy", "cx", "cy"}}]: every method on the same sightings. over_bound is null where no truth is
+/// known.
 nlohmann::json methods_json(const std::vector<MethodResult>& results);
 
 /// The same as a table.
