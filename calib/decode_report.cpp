@@ -97,7 +97,7 @@ void flag_black_and_white(const CapturedStack& pictures, double contrast, Decode
   const double outside = outside_black_and_white(pictures, contrast);
   if (outside > 0.01) {
     doubt(fmt::format("{:.0f} % of the pixels are brighter than in white, or darker than in black: white or "
-                      "black was dropped or exchanged",
+                      "black was dropped or exchanged, or the rig or the scene moved",
                       100 * outside),
           report);
   }

@@ -2,6 +2,7 @@
 
 #include "apps/bench/timing.h"
 #include "calib/decode_gray.h"
+#include "calib/fringe_fit.h"
 #include "calib/fringe_kernel.h"
 #include "sim/parallel.h"
 
@@ -78,7 +79,9 @@ class Peer {
 /// libm.
 class Fringe {
  public:
-  Fringe() : stack_(size.x, size.y, steps) {
+  Fringe() : stack_(size.x, size.y, steps + 2) {
+    std::fill(stack_.picture(steps).begin(), stack_.picture(steps).end(), std::uint8_t(210));
+    std::fill(stack_.picture(steps + 1).begin(), stack_.picture(steps + 1).end(), std::uint8_t(30));
     for (int j = 0; j < steps; ++j)
       for (std::size_t i = 0; i < stack_.picture_size(); ++i)
         stack_.picture(j)[i] =
@@ -89,6 +92,14 @@ class Fringe {
       for_blocks([&](const std::uint8_t* const* pictures) {
         fit_fringe(pictures, steps, cosines, sines, block, {mean_, c_, s_, own_});
       });
+    });
+  }
+  /// With the sigma of each pixel, as decode_phase() takes it.
+  double fit_seconds() {
+    const PatternGroup group{PatternGroup::Kind::fringe, 0, 0, steps, 0, 32};
+    return seconds([&] {
+      for (std::size_t begin = 0; begin < pixels(); begin += block)
+        own_[0] += laterna::fit_fringe(stack_, group, {1, 0}, {255, 4, 5}, begin, block).variance[0];
     });
   }
   template <class Real>
@@ -146,21 +157,23 @@ DecodeTimes time_decode(int repeats) {
   const Peer peer(pictures);
   auto fringe = std::make_unique<Fringe>();
   GrayCodes codes;
-  std::vector<double> over_read, opencv, atan2, atan2f, own_ns;
+  std::vector<double> over_read, opencv, atan2, atan2f, fit, own_ns;
   for (int i = -1; i < repeats; ++i) {  // the first round warms up
     const double read = read_seconds(pictures);
     const double gray = seconds([&] { decode_gray_codes(stack, sequence, {40, 6, 0, 0}, codes); });
     const double other = peer.seconds_for_all(codes);
+    const double with_sigma = fringe->fit_seconds();
     const double own = fringe->own_seconds(), libmf = fringe->libm_seconds<float>();
     const double libm = fringe->libm_seconds<double>();
     fringe->check();
     if (i < 0) continue;
     over_read.push_back(gray / read), opencv.push_back(other / gray);
     atan2.push_back(libm / own), atan2f.push_back(libmf / own);
+    fit.push_back(libm / with_sigma);
     own_ns.push_back(1e9 * own / double(fringe->pixels()));
   }
   set_thread_count(threads);
-  return {median(over_read), median(opencv), median(atan2), median(atan2f), median(own_ns)};
+  return {median(over_read), median(opencv), median(atan2), median(atan2f), median(fit), median(own_ns)};
 }
 
 }  // namespace laterna

@@ -11,7 +11,8 @@ struct DecodeTimes {
       0;  ///< OpenCV's getProjPixel, per pixel, over decode_gray_codes: the same columns and rows
   double atan2_over_phase = 0;   ///< mean, c, s and angle with libm's atan2 in double, over fit_fringe
   double atan2f_over_phase = 0;  ///< the same in float
-  double phase_ns = 0;           ///< fit_fringe, per pixel
+  double atan2_over_fit = 0;  ///< the peer in double, without any sigma, over the fit with each pixel's sigma
+  double phase_ns = 0;        ///< fit_fringe, per pixel
 };
 
 /// Throws std::runtime_error where OpenCV decodes something else, or the phases differ by more than 5e-6 rad.

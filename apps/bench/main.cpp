@@ -68,6 +68,7 @@ nlohmann::ordered_json measure(const Options& options) {
           {"opencv_over_decode_gray", decode.opencv_over_gray},
           {"atan2_over_decode_phase", decode.atan2_over_phase},
           {"atan2f_over_decode_phase", decode.atan2f_over_phase},
+          {"atan2_over_fit_with_sigma", decode.atan2_over_fit},
           {"decode_phase_ns_per_pixel", decode.phase_ns},
           {"solve_million_passes", solve.passes},
           {"solve_million_over_pass", solve.over_pass},

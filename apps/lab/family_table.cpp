@@ -6,7 +6,6 @@
 #include "sim/scene_file.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -79,9 +78,9 @@ int first_row_picture(const PatternSequence& sequence) {
   return std::find_if(groups.begin(), groups.end(), [](const PatternGroup& g) { return g.axis == 1; })->first;
 }
 
-void drop(SceneSpec& spec, int picture) {
+void lose(SceneSpec& spec, int picture) {
   spec.effects.timing = true;
-  spec.timing.dropped_frame = picture;
+  spec.timing.dropped_frame = picture, spec.timing.repeated_frame = picture + 1;
 }
 
 void move_camera(SceneSpec& spec) {
@@ -105,10 +104,13 @@ void apply(Fault fault, SceneSpec& spec) {
     case Fault::interreflection:
       spec.effects.inter_reflection = true, spec.inter_reflection = {3, 16};
       return;
-    case Fault::dropped_fine:
-      return drop(spec, finest_column_picture(sequence_of(spec)) + 1);
-    case Fault::dropped_coarse:
-      return drop(spec, 1);
+    case Fault::dropped:
+      spec.effects.timing = true, spec.timing.dropped_frame = 1;
+      return;
+    case Fault::lost_fine:
+      return lose(spec, finest_column_picture(sequence_of(spec)) + 1);
+    case Fault::lost_coarse:
+      return lose(spec, 1);
     case Fault::moved:
       return move_camera(spec);
     case Fault::moved_and_repeated:
@@ -178,16 +180,14 @@ std::vector<NamedPatterns> table_families() {
 }
 
 const char* fault_name(Fault fault) {
-  constexpr std::array names{
-      "none",         "gamma 2.2",      "saturation", "defocus",        "inter-reflection",
-      "dropped fine", "dropped coarse", "moved",      "moved, repeated"};
+  constexpr std::array names{"none",    "gamma 2.2", "saturation",  "defocus", "inter-reflection",
+                             "dropped", "lost fine", "lost coarse", "moved",   "moved, repeated"};
   return names[std::size_t(fault)];
 }
 
 std::vector<Fault> all_faults() {
-  return {Fault::none,           Fault::gamma,           Fault::saturation,
-          Fault::defocus,        Fault::interreflection, Fault::dropped_fine,
-          Fault::dropped_coarse, Fault::moved,           Fault::moved_and_repeated};
+  return {Fault::none,    Fault::gamma,     Fault::saturation,  Fault::defocus, Fault::interreflection,
+          Fault::dropped, Fault::lost_fine, Fault::lost_coarse, Fault::moved,   Fault::moved_and_repeated};
 }
 
 const char* ending_name(Ending ending) {

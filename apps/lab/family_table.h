@@ -25,12 +25,13 @@ std::vector<NamedPatterns> table_families();
 /// relief, 1.6 m wide from 2 m, projector 256×192 bilinear, camera 480×300 with 0.7 DN of noise.
 enum class Fault {
   none,
-  gamma,              ///< the projector's light is the 2.2th power of the pattern's value
-  saturation,         ///< the camera is exposed so that white would be at 1.6 × full scale in the median
-  defocus,            ///< the projector's blur is 4 to 13 px wide
-  interreflection,    ///< up to three bounces
-  dropped_fine,       ///< the projector skips the second picture of the finest group of columns
-  dropped_coarse,     ///< ... the second picture of all
+  gamma,            ///< the projector's light is the 2.2th power of the pattern's value
+  saturation,       ///< the camera is exposed so that white would be at 1.6 × full scale in the median
+  defocus,          ///< the projector's blur is 4 to 13 px wide
+  interreflection,  ///< up to three bounces
+  dropped,          ///< the projector skips the second picture: all later ones are one ahead
+  lost_fine,  ///< the second picture of the finest group of columns shows the next one; the others are right
+  lost_coarse,        ///< ... the second picture of all
   moved,              ///< the camera moves by 20 mm between the pictures of columns and those of rows
   moved_and_repeated  ///< the same, with the first picture shown again at the end
 };

@@ -3,12 +3,10 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
-#include <map>
 
 namespace laterna {
 namespace {
 
-using ::testing::Contains;
 using ::testing::HasSubstr;
 
 NamedPatterns family(const std::string& name) {
@@ -32,8 +30,8 @@ TEST(FamilyTable, WithoutFaultsAllAreRight) {
 
 TEST(FamilyTable, FaultsAreRightOrSaidToBeDoubtful) {
   for (const char* name : {"gray", "gray_phase N=3", "gray_phase N=4", "multi_frequency", "micro_phase"}) {
-    for (const Fault fault : {Fault::gamma, Fault::saturation, Fault::dropped_fine, Fault::dropped_coarse,
-                              Fault::moved_and_repeated})
+    for (const Fault fault :
+         {Fault::gamma, Fault::saturation, Fault::lost_fine, Fault::lost_coarse, Fault::moved_and_repeated})
       expect_honest(family_cell(family(name), fault));
   }
   for (const char* name : {"gray", "gray_phase N=4"}) {
