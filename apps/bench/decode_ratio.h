@@ -4,7 +4,7 @@
 namespace laterna {
 
 /// Medians over repeats of ratios within each repeat, on one thread: 44 Gray pictures of 1280×800 for a
-/// projector of the same size, and four steps of a fringe of the same size.
+/// projector of the same size, and four steps of a fringe of the same size (best of three passes each).
 struct DecodeTimes {
   double gray_over_read = 0;  ///< decode_gray_codes over summing the bytes of the same pictures
   double opencv_over_gray =
