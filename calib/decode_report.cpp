@@ -34,6 +34,13 @@ double median_misfit(std::vector<GroupMisfit> misfits) {
   return middle->misfit;
 }
 
+// A response bends all fringes alike; a lost picture only its own.
+double least_misfit(const std::vector<GroupMisfit>& misfits) {
+  return std::min_element(misfits.begin(), misfits.end(),
+                          [](const GroupMisfit& a, const GroupMisfit& b) { return a.misfit < b.misfit; })
+      ->misfit;
+}
+
 std::string group_name(const PatternSequence& sequence, const PatternGroup& group) {
   return fmt::format("\"{}\" to \"{}\"", picture_name(sequence, group.first),
                      picture_name(sequence, group.first + group.count - 1));
@@ -44,13 +51,13 @@ void doubt(std::string flag, DecodeReport& report) {
   report.flags.push_back(std::move(flag));
 }
 
-// The shift of places by the finest fringe, whose sums are off by the median misfit.
+// The shift of places by the finest fringe, whose sums are off by the least misfit.
 double shift_px(const std::vector<GroupMisfit>& fringes) {
   const auto finest = std::min_element(fringes.begin(), fringes.end(), [](const auto& a, const auto& b) {
     return a.group.pitch_px < b.group.pitch_px;
   });
   const double n = finest->group.count;
-  const double mean_rest = median_misfit(fringes) * std::sqrt(n + n * n / 2) / n;
+  const double mean_rest = least_misfit(fringes) * std::sqrt(n + n * n / 2) / n;
   return bent_response_shift_px(mean_rest, finest->group.count, finest->group.pitch_px);
 }
 
@@ -71,13 +78,14 @@ void flag_sums(const PatternSequence& sequence, DecodeReport& report) {
   std::vector<GroupMisfit> fringes;
   for (const GroupMisfit& m : report.misfits)
     if (m.group.kind == PatternGroup::Kind::fringe) fringes.push_back(m);
-  const bool bent = !fringes.empty() && median_misfit(fringes) > bent_misfit;
+  const bool bent = !fringes.empty() && least_misfit(fringes) > bent_misfit;
   if (bent) flag_response(sequence, fringes, report);
   if (report.misfits.size() < 3) return;
   const double typical = median_misfit(report.misfits);
   for (const GroupMisfit& m : report.misfits) {
-    if (bent && m.group.kind == PatternGroup::Kind::fringe) continue;
-    if (m.misfit <= odd_misfit || m.misfit <= odd_factor * typical) continue;
+    const bool is_fringe = m.group.kind == PatternGroup::Kind::fringe;
+    const double usual = bent && is_fringe ? least_misfit(fringes) : typical;
+    if (m.misfit <= odd_misfit || m.misfit <= odd_factor * usual) continue;
     doubt(fmt::format("{} do not sum to white and black as the others do: a dropped or exchanged picture",
                       group_name(sequence, m.group)),
           report);
