@@ -204,4 +204,11 @@ SolveResult solve(const Correspondences& c, glm::ivec2 size, const SolveOptions&
   return result;
 }
 
+void add_doubts(SolveResult& result, const std::vector<std::string>& doubts) {
+  if (doubts.empty()) return;
+  if (result.status == Status::ok) result.status = Status::weak;
+  const char* between = result.reason.empty() ? "" : "; ";
+  result.reason += between + fmt::format("{}", fmt::join(doubts, "; "));
+}
+
 }  // namespace laterna

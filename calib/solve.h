@@ -80,4 +80,8 @@ struct SolveResult {
 SolveResult solve(const Correspondences& correspondences, glm::ivec2 projector_size,
                   const SolveOptions& options = {});
 
+/// Adds what else is known to be wrong with the data: `ok` becomes `weak`, refused stays refused, and the
+/// sentences are joined to the reason.
+void add_doubts(SolveResult& result, const std::vector<std::string>& doubts);
+
 }  // namespace laterna

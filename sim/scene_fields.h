@@ -728,6 +728,10 @@ void describe(Visitor& visit, PatternParameters& patterns) {
       Field{
           .key = "square_px", .unit = "px", .sentence = "Side of a board's squares.", .low = 8, .high = 4096},
       patterns.square_px);
+  visit(Field{.key = "repeat_first",
+              .sentence = "Whether the first picture is shown once more at the end, so that decoding can see "
+                          "whether anything moved meanwhile."},
+        patterns.repeat_first);
 }
 
 template <class Visitor>

@@ -36,7 +36,7 @@ std::string lens_model(const Scene& scene, const std::string& projector) {
 struct Collected {
   glm::ivec2 size{0, 0};
   Correspondences correspondences;
-  std::vector<std::string> flags;
+  std::vector<std::string> flags, doubts;
 };
 
 }  // namespace
@@ -59,8 +59,11 @@ std::vector<FolderEstimate> calibrate_folder(const std::filesystem::path& folder
     Collected& collected = projectors[sequence.projector];
     collected.correspondences.cameras = told_cameras(scene);
     collected.size = sequence.projector_size;
-    for (const std::string& flag : decoded.report.flags)
-      collected.flags.push_back(fmt::format("seen by \"{}\": {}", sequence.camera, flag));
+    const auto seen_by = [&](const std::string& words) {
+      return fmt::format("seen by \"{}\": {}", sequence.camera, words);
+    };
+    for (const std::string& flag : decoded.report.flags) collected.flags.push_back(seen_by(flag));
+    for (const std::string& doubt : decoded.report.doubts) collected.doubts.push_back(seen_by(doubt));
     append_correspondences(map, points.at(camera), camera, TrialOptions{}.block_px,
                            collected.correspondences);
   }
@@ -77,6 +80,7 @@ std::vector<FolderEstimate> calibrate_folder(const std::filesystem::path& folder
     } else {
       estimate.solve = solve(collected.correspondences, collected.size, options);
     }
+    add_doubts(estimate.solve, collected.doubts);
     estimate.solve.estimate.name = name;
     estimates.push_back(std::move(estimate));
   }

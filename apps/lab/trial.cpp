@@ -55,7 +55,9 @@ void judge(const Scene& scene, const Traced& traced, const Correspondences& corr
 void append_flags(const CapturedStack& pictures, const PatternSequence& sequence, const DecodedMap& map,
                   ProjectorOutcome& outcome) {
   outcome.times.measure("decode", [&] {
-    for (const std::string& flag : report_on(pictures, sequence, map).flags) outcome.flags.push_back(flag);
+    const DecodeReport report = report_on(pictures, sequence, map);
+    outcome.flags.insert(outcome.flags.end(), report.flags.begin(), report.flags.end());
+    outcome.doubts.insert(outcome.doubts.end(), report.doubts.begin(), report.doubts.end());
   });
 }
 
@@ -155,6 +157,7 @@ std::vector<ProjectorOutcome> run_trial(const Scene& scene, const Traced& traced
       progress(
           fmt::format("solving for \"{}\" from {} correspondences", outcome.name, outcome.correspondences));
     judge(scene, traced, correspondences, options, outcome);
+    add_doubts(outcome.solve, outcome.doubts);
     for (const auto& stage : outcome.times.stages) times.add(stage.name, stage.seconds);
     outcomes.push_back(std::move(outcome));
   }

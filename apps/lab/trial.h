@@ -31,6 +31,7 @@ struct ProjectorOutcome {
   std::vector<float> surface_error_px;  ///< per surface point, in the order of camera pixels of the first
                                         ///< camera, NaN where dark
   std::vector<std::string> flags;       ///< what looks wrong in its pictures, view by view
+  std::vector<std::string> doubts;      ///< those that make the verdict at best weak (decode_report.h)
   StageTimes times;                     ///< shared stages (build, surface) included
 };
 
