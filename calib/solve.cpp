@@ -3,6 +3,7 @@
 #include "calib/camera_uncertainty.h"
 #include "calib/candidates.h"
 #include "calib/covariance.h"
+#include "calib/lens_left_out.h"
 #include "calib/verify.h"
 #include "sim/error.h"
 
@@ -16,7 +17,9 @@ namespace laterna {
 
 namespace {
 
-constexpr double rank_deficient = 1e-13;  // last over first scaled singular value
+constexpr double rank_deficient = 1e-13;      // last over first scaled singular value
+constexpr double converged_to_sigmas = 1e-6;  // refine() stops there
+constexpr double lens_is_there = 28.5;        // χ² with four degrees of freedom is above it once in 10⁵
 
 SolveResult refused(SolveResult& result, std::string reason) {
   result.status = Status::refused;
@@ -80,7 +83,9 @@ bool predict(SolveResult& result, const std::vector<glm::dvec3>& world_points) {
   result.clusters_suffice = result.clusters >= 3 * std::size_t(p) && !result.covariance_clustered.empty();
   const bool use_clustered = result.clusters_suffice || clustered > independent;
   result.covariance = use_clustered ? result.covariance_clustered : result.covariance_independent;
-  result.predicted_volume_rms_px = use_clustered ? clustered : independent;
+  // Residuals near rounding say nothing of where the refinement stopped.
+  result.predicted_volume_rms_px =
+      std::max(use_clustered ? clustered : independent, converged_to_sigmas * independent);
   if (!result.covariance_camera.empty()) {
     result.predicted_volume_rms_camera_px = prediction(result.covariance_camera);
     for (std::size_t i = 0; i < result.covariance.size(); ++i)
@@ -136,6 +141,27 @@ std::vector<std::string> weaknesses(const SolveResult& r, const Correspondences&
                     r.clusters, 3 * r.parameter_names.size()));
   }
   return w;
+}
+
+// Whether a pinhole's residuals follow a lens, in a sentence; empty where they do not, or where it would move
+// the volume by no more than twice what is predicted anyway.
+std::string lens_weakness(const SolveResult& r, const PointTable& points, const ProjectorState& state,
+                          const WorldNormalisation& normalisation, const Correspondences& c,
+                          const SolveOptions& options) {
+  if (options.lens_model != "LENSMODEL_PINHOLE" || !r.covariance_camera.empty()) return "";
+  const auto left = lens_left_out(points, state, options.loss, normalisation, r.estimate.intrinsics.size);
+  if (!left || left->wald < lens_is_there) return "";
+  const auto volume = image_grid(r.estimate, volume_depths(depths_of(r.estimate, c.world_points)));
+  double sum = 0, count = 0;
+  for (const glm::dvec2& d : error_vectors(r.estimate, left->device, volume))
+    if (std::isfinite(d.x)) sum += glm::dot(d, d), ++count;
+  const double moved = std::sqrt(sum / std::max(1.0, count));
+  if (moved <= 2 * r.predicted_volume_rms_px) return "";
+  return fmt::format(
+      "the residuals follow what a pinhole has not: k1 = {:.2g}, k2, p1 and p2 would move the volume by "
+      "{:.2g} "
+      "px, where {:.2g} px are predicted (a lens that distorts, a wrong mesh or camera)",
+      left->device.lens.parameters[0], moved, r.predicted_volume_rms_px);
 }
 
 }  // namespace
@@ -198,7 +224,10 @@ SolveResult solve(const Correspondences& c, glm::ivec2 size, const SolveOptions&
   if (!(result.estimate.intrinsics.fx > 0 && result.estimate.intrinsics.fy > 0))
     return refused(result, "the best fit has a negative focal length: the mapping is mirrored");
   const bool maps_its_volume = predict(result, c.world_points);
-  const auto weak = weaknesses(result, c, options, maps_its_volume);
+  auto weak = weaknesses(result, c, options, maps_its_volume);
+  if (const std::string lens_words = lens_weakness(result, points, fit.state, normalisation, c, options);
+      !lens_words.empty())
+    weak.push_back(lens_words);
   result.status = weak.empty() ? Status::ok : Status::weak;
   result.reason = fmt::format("{}", fmt::join(weak, "; "));
   return result;

@@ -69,7 +69,9 @@ struct SolveResult {
 /// pixels on a line, a mirrored mapping, points behind the projector, a rank-deficient Jacobian, no
 /// convergence. Weak: predicted volume error above the tolerance, residuals over twice what the sigmas
 /// explain, too few clusters, sigma of fx or fy above a tenth of it, more outliers than the loss bears (Huber
-/// 15 %, Cauchy 50 %), or an estimate that cannot map its own volume. The verdict never looks at a truth.
+/// 15 %, Cauchy 50 %), an estimate that cannot map its own volume, or, for a pinhole, residuals that follow a
+/// lens (lens_left_out.h, once in 10⁵ by chance) which would move the volume by more than twice its predicted
+/// error. The verdict never looks at a truth.
 ///
 /// The world points are believed. Where their cameras are uncertain, that is carried to first order into
 /// covariance, prediction and verdict, and residuals may be as large as it explains. Where they are wrong and

@@ -85,8 +85,13 @@ Placement read_placement(const fs::path& folder, const BoardFolderOptions& optio
     const CapturedStack pictures = read_pictures(folder, sequence);
     if (placement.sequences.empty()) placement.picture = print_picture(pictures);
     placement.sequences.push_back(decode_sequence(folder, sequence, pictures, options.decode));
+    const auto seen = [&](const std::string& what) {
+      return fmt::format("{}, \"{}\": {}", folder.string(), sequence.projector, what);
+    };
     for (const std::string& flag : placement.sequences.back().report.flags)
-      result.warnings.push_back(fmt::format("{}, \"{}\": {}", folder.string(), sequence.projector, flag));
+      result.warnings.push_back(seen(flag));
+    for (const std::string& doubt : placement.sequences.back().report.doubts)
+      result.doubts.push_back(seen(doubt));
   }
   return placement;
 }
