@@ -4,6 +4,7 @@
 #include "calib/candidates.h"
 #include "calib/covariance.h"
 #include "calib/lens_left_out.h"
+#include "calib/residual_structure.h"
 #include "calib/verify.h"
 #include "sim/error.h"
 
@@ -164,6 +165,23 @@ std::string lens_weakness(const SolveResult& r, const PointTable& points, const 
       left->device.lens.parameters[0], moved, r.predicted_volume_rms_px);
 }
 
+// Whether neighbouring blocks' residuals agree by more than chance, than what is predicted, and than a
+// twentieth of the tolerance: the volume error of a wrong mesh or camera was five to ten times what
+// neighbours share in every case that was tried, so that what stays below that is no more than half of the
+// tolerance. In a sentence, else empty.
+std::string structure_weakness(const SolveResult& r, const PointTable& points, const LensGradient& lens,
+                               const ProjectorState& state, double tolerance_px) {
+  constexpr double by_chance = 5;
+  if (!r.covariance_camera.empty()) return "";
+  const auto found = residual_structure(points, lens, state);
+  if (!found || found->moran_z < by_chance) return "";
+  if (found->smooth_rms_px <= std::max(r.predicted_volume_rms_px, tolerance_px / 20)) return "";
+  return fmt::format(
+      "neighbouring residuals agree ({:.2g} px of them, {:.0f} standard deviations from chance) where the "
+      "predicted error is {:.2g} px: a wrong mesh, camera or lens",
+      found->smooth_rms_px, found->moran_z, r.predicted_volume_rms_px);
+}
+
 }  // namespace
 
 SolveResult solve(const Correspondences& c, glm::ivec2 size, const SolveOptions& options) {
@@ -225,9 +243,9 @@ SolveResult solve(const Correspondences& c, glm::ivec2 size, const SolveOptions&
     return refused(result, "the best fit has a negative focal length: the mapping is mirrored");
   const bool maps_its_volume = predict(result, c.world_points);
   auto weak = weaknesses(result, c, options, maps_its_volume);
-  if (const std::string lens_words = lens_weakness(result, points, fit.state, normalisation, c, options);
-      !lens_words.empty())
-    weak.push_back(lens_words);
+  for (const std::string& words : {lens_weakness(result, points, fit.state, normalisation, c, options),
+                                   structure_weakness(result, points, lens, fit.state, options.tolerance_px)})
+    if (!words.empty()) weak.push_back(words);
   result.status = weak.empty() ? Status::ok : Status::weak;
   result.reason = fmt::format("{}", fmt::join(weak, "; "));
   return result;
