@@ -3,6 +3,7 @@
 #include "apps/lab/decode_folder.h"
 #include "apps/lab/summary_picture.h"
 #include "apps/lab/trial_report.h"
+#include "render/effects/apply_effects.h"
 #include "sim/safe_write.h"
 
 #include <fmt/format.h>
@@ -22,7 +23,8 @@ struct Kept {
   DecodedMap decoded;
 };
 
-Image<float> white_frame(const CapturedStack* pictures, const View& view, int full_scale) {
+Image<float> white_frame(const CapturedStack* pictures, const PatternSequence& sequence, const View& view,
+                         int full_scale) {
   Image<float> white(view.light.width, view.light.height);
   if (!pictures) {
     for (std::size_t i = 0; i < white.values.size(); ++i) white.values[i] = view.light.lit(i) ? 1.0f : 0.0f;
@@ -30,7 +32,7 @@ Image<float> white_frame(const CapturedStack* pictures, const View& view, int fu
   }
   std::visit(
       [&](const auto& stack) {
-        const auto picture = stack.picture(stack.count - 2);
+        const auto picture = stack.picture(white_picture(sequence));
         for (std::size_t i = 0; i < white.values.size(); ++i)
           white.values[i] = float(picture[i]) / float(full_scale);
       },
@@ -107,7 +109,8 @@ RoundtripOutput roundtrip(const Scene& scene, const std::string& scene_name,
   const auto keep = [&](const View& view, const CapturedStack* pictures, const DecodedMap& decoded) {
     if (!folder) return;
     const int full_scale = (1 << scene.cameras[view.camera].sensor.bit_depth) - 1;
-    kept.push_back({&view, white_frame(pictures, view, full_scale), decoded});
+    const PatternSequence sequence = pattern_sequence(scene, scene.projectors[view.projector]);
+    kept.push_back({&view, white_frame(pictures, sequence, view, full_scale), decoded});
   };
   out.outcomes = run_trial(scene, traced, options, out.times, keep, progress);
   if (folder) {

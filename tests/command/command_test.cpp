@@ -310,7 +310,11 @@ TEST(Command, BadTablesAndWordsAreOneSentence) {
             "expected one in an image of 100x100"},
            {"board.csv --lens fisheye" + sizes, "lens is \"fisheye\", expected auto"},
            {"board.csv --scene s.toml" + sizes, "--scene is for pictures"},
-           {"folder --lens k1", "--lens is for a table"}}) {
+           {"folder --lens k1", "--lens is for boards"},
+           {"folder --camera-size 3x4 --board chessboard,9x7,75mm", "--camera-size is for a table"},
+           {"board.csv --board chessboard,9x7,75mm" + sizes, "--board is for pictures"},
+           {"folder --board chess", "board \"chess\", expected chessboard"},
+           {"folder folder", "2 folders, expected one"}}) {
     const auto result = laterna("calibrate " + words, scratch.path());
     EXPECT_EQ(result.exit_code, 2) << words;
     EXPECT_THAT(result.err, HasSubstr(expected)) << words;

@@ -212,6 +212,13 @@ Json atlas_summary(const Atlas& atlas) {
   return json;
 }
 
+Json atlas_letters(const Atlas& atlas) {
+  Json letters = Json::object();
+  for (const AtlasCell& cell : atlas.cells)
+    if (cell.method == "laterna") letters[cell.name] = cell.letters;
+  return letters;
+}
+
 Json atlas_cells(const Atlas& atlas, const std::string& specification) {
   Json cells = Json::array();
   for (const AtlasCell& c : atlas.cells) {

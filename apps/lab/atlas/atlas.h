@@ -16,8 +16,8 @@ struct AtlasOptions {
   std::uint64_t seed = 1;  ///< all seeds of cells are drawn from it and the cell's name
   bool resume = false;
   bool long_run = false;             ///< also grids with `long = true`
-  std::vector<std::string> methods;  ///< only these; empty: those of each grid
-  std::string cell;                  ///< only the cells whose name begins with it; empty: all
+  std::vector<std::string> methods{};  ///< only these; empty: those of each grid
+  std::string cell{};                ///< only the cells whose name begins with it; empty: all
   int sample = 0;                    ///< so many cells drawn at random by `seed`; 0: all
 };
 
@@ -56,6 +56,9 @@ Atlas run_atlas(const std::filesystem::path& specification, const std::filesyste
 /// {the same}}: counts of solved problems; `conditions` counts cells of Laterna's own method, `seeds` the
 /// fewest that one had.
 nlohmann::json atlas_summary(const Atlas& atlas);
+
+/// {CELL: letters} of Laterna's own method: what a later run is compared with.
+nlohmann::json atlas_letters(const Atlas& atlas);
 
 /// [{"grid", "cell", "kind", "method", "values", "hidden", "right", ..., "letters", "error_px",
 /// "predicted_px", "reasons": [[text, count]], "command"}]; `specification` is named in the commands.
