@@ -209,7 +209,7 @@ struct Grid {
     for (const int sign : {1, -1}) {
       const glm::ivec2 there = here + sign * along;
       if (there.x < 0 || there.y < 0 || there.x >= count.x || there.y >= count.y) continue;
-      const auto k = std::size_t(there.y * count.x + there.x);
+      const std::size_t k = std::size_t(there.y) * std::size_t(count.x) + std::size_t(there.x);
       if (at[k]) return k;
     }
     return {};

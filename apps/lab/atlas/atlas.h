@@ -15,10 +15,10 @@ namespace laterna {
 struct AtlasOptions {
   std::uint64_t seed = 1;  ///< all seeds of cells are drawn from it and the cell's name
   bool resume = false;
-  bool long_run = false;             ///< also grids with `long = true`
+  bool long_run = false;               ///< also grids with `long = true`
   std::vector<std::string> methods{};  ///< only these; empty: those of each grid
-  std::string cell{};                ///< only the cells whose name begins with it; empty: all
-  int sample = 0;                    ///< so many cells drawn at random by `seed`; 0: all
+  std::string cell{};                  ///< only the cells whose name begins with it; empty: all
+  int sample = 0;                      ///< so many cells drawn at random by `seed`; 0: all
 };
 
 /// One condition under one method.
