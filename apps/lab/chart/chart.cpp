@@ -70,7 +70,7 @@ void plan_cell(const Grid& grid, const GridCell& cell, const CellTrial& trial, c
 }
 
 std::string against_of(const std::vector<Grid>& grids) {
-  const std::string against = word_setting(grids.front(), "against", "seconds");
+  std::string against = word_setting(grids.front(), "against", "seconds");
   for (const Grid& grid : grids) {
     if (word_setting(grid, "against", "seconds") != against)
       throw InputError(grid.place + ": against differs from the first grid's, expected one x for the chart");

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace laterna {
 
@@ -166,6 +167,14 @@ std::string chart_csv(const Chart& chart) {
   return csv;
 }
 
+namespace {
+
+std::string digits(double value, int significant) {
+  return std::isfinite(value) ? fmt::format("{:.{}g}", value, significant) : "-";
+}
+
+}  // namespace
+
 std::string chart_text(const Chart& chart) {
   const std::vector<std::size_t> front = pareto_front(chart.points);
   std::string text = fmt::format("  {:>10} {:>10} {:>10} {:>10} {:>10}  {}\n", "error px", "quartiles",
@@ -174,9 +183,9 @@ std::string chart_text(const Chart& chart) {
   for (std::size_t k = 0; k < chart.points.size(); ++k) {
     const ChartPoint& p = chart.points[k];
     const bool best = std::find(front.begin(), front.end(), k) != front.end();
-    text += fmt::format("{} {:>10.4g} {:>10.3g} {:>10.4g} {:>10.3g} {:>10.2g}  {}\n", best ? '*' : ' ',
-                        p.error_px.middle, spread_px(p), p.bound_px, p.seconds,
-                        p.seconds_high - p.seconds_low, p.label);
+    text += fmt::format("{} {:>10} {:>10} {:>10} {:>10} {:>10}  {}\n", best ? '*' : ' ',
+                        digits(p.error_px.middle, 4), digits(spread_px(p), 3), digits(p.bound_px, 4),
+                        digits(p.seconds, 3), digits(p.seconds_high - p.seconds_low, 2), p.label);
     if (p.refused + p.crashed > 0)
       failures += fmt::format("{}: {} of {} seeds refused, {} crashed: {}\n", p.label, p.refused, p.seeds,
                               p.crashed, p.reason);
