@@ -431,5 +431,28 @@ TEST(Command, DamagedCapturesAreBadInput) {
   EXPECT_THAT(exists.err, HasSubstr("exists"));
 }
 
+TEST(Command, ChartKeepsItsContractAndItsCommandsReproduce) {
+  const ScratchFolder scratch;
+  write_text(scratch / "sweep.toml",
+             "[[grid]]\nname = \"g\"\nkind = \"points\"\nseeds = 3\nmethods = [\"laterna\", \"dlt\"]\n"
+             "points = [20, 50]\n");
+  const auto run = laterna("chart sweep.toml -o out --json", scratch.path());
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(listing(scratch / "out"), "chart.csv chart.json chart.svg journal.jsonl reference.json ");
+  const json parsed = json::parse(run.out);
+  ASSERT_EQ(parsed.at("points").size(), 4u);
+  EXPECT_GE(parsed.at("pareto").size(), 1u);
+  const json& point = parsed["points"][3];
+  EXPECT_EQ(point.at("label"), "g: points=50 method=dlt");
+  for (const char* key : {"error_px", "bound_px", "seconds", "spread_px"}) EXPECT_GT(point.at(key), 0) << key;
+  const auto command = point.at("command").get<std::string>();
+  ASSERT_TRUE(command.starts_with("laterna "));
+  const auto again = laterna(command.substr(8) + " --json", scratch.path());
+  ASSERT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_EQ(json::parse(again.out)["points"][0]["error_px"], point["error_px"]);
+  EXPECT_EQ(laterna("chart sweep.toml -o out --json", scratch.path()).exit_code, 2);  // holds a run already
+  EXPECT_EQ(laterna("chart sweep.toml -o out --resume --json", scratch.path()).out, run.out);
+}
+
 }  // namespace
 }  // namespace laterna
