@@ -4,6 +4,7 @@
 #include "calib/candidates.h"
 #include "calib/covariance.h"
 #include "calib/lens_left_out.h"
+#include "calib/placement.h"
 #include "calib/residual_structure.h"
 #include "calib/verify.h"
 #include "sim/error.h"
@@ -45,17 +46,6 @@ void validate_known(glm::ivec2 size, const KnownIntrinsics& known) {
     if (!(s >= 0) || !std::isfinite(s))
       throw InputError(
           fmt::format("solve: a sigma of the known intrinsics is {}, expected a number from 0", s));
-}
-
-// Exact values get sigmas far below what pixels tell and far above rounding.
-IntrinsicsPrior prior_of(const KnownIntrinsics& known) {
-  constexpr double exact_px = 1e-6, exact_lens = 1e-9;
-  IntrinsicsPrior prior{state_of(Device{"", known.intrinsics, {}, known.lens, {}}).parameters, {}};
-  for (std::size_t i = 0; i < prior.mean.size(); ++i) {
-    const double sigma = known.sigma.empty() ? 0 : known.sigma[i];
-    prior.inverse_sigma.push_back(1 / std::max(sigma, i < 4 ? exact_px : exact_lens));
-  }
-  return prior;
 }
 
 void validate_options(glm::ivec2 size, const SolveOptions& options) {

@@ -21,7 +21,6 @@ namespace {
 struct Words {
   std::vector<std::string> paths;
   std::string scene, size, out;
-  std::vector<std::string> known;
   PatternParameters patterns;
   SolveOptions solve;
   BoardWords boards;
@@ -53,7 +52,7 @@ int run(const Words& words, const Common& common) {
   SolveOptions options = words.solve;
   options.seed = common.seed;
   const auto estimates =
-      calibrate_folder(folder, manifest, scene, options, {}, read_known_intrinsics(words.known),
+      calibrate_folder(folder, manifest, scene, options, {}, read_known_intrinsics(words.boards.known),
                        [&](const std::string& line) { progress(common, line); });
   std::vector<nlohmann::json> entries;
   int code = exit_ok;
@@ -80,9 +79,8 @@ int run(const Words& words, const Common& common) {
 }
 
 void expect_options(const CLI::App& command, For what) {
-  static constexpr std::array<std::pair<const char*, For>, 15> options{
+  static constexpr std::array<std::pair<const char*, For>, 14> options{
       {{"--scene", For::known_scene},
-       {"--known", For::known_scene},
        {"--loss", For::known_scene},
        {"--loss-scale", For::known_scene},
        {"--lens", For::boards},
@@ -133,7 +131,7 @@ void add_calibrate(CLI::App& app, Common& common) {
                       "WIDTHxHEIGHT, for a folder without a manifest and for a FILE.csv");
   command
       ->add_option(
-          "--known", words->known,
+          "--known", words->boards.known,
           "FILE or NAME=FILE with known intrinsics (.cameramodel, or an estimate with its sigmas): only the "
           "placement is solved for, and a flat scene will do")
       ->take_all();

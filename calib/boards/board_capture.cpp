@@ -33,8 +33,15 @@ void validate(const Sighting& s, const BoardDevice& device, int label) {
 
 void validate(const BoardCapture& capture) {
   if (capture.devices.empty()) throw InputError("board capture: no device, expected at least a camera");
-  for (const BoardDevice& device : capture.devices)
+  for (const BoardDevice& device : capture.devices) {
     validate(Intrinsics{device.size, 1, 1, 0, 0}, device.name.c_str());
+    if (!device.known) continue;
+    laterna::validate(*device.known);
+    const glm::ivec2 found = device.known->intrinsics.size;
+    if (found != device.size)
+      throw InputError(fmt::format("{}: the known intrinsics are of {}x{} px, expected {}x{}", device.name,
+                                   found.x, found.y, device.size.x, device.size.y));
+  }
   for (const Sighting& s : capture.sightings) {
     const bool in_range = s.device >= 0 && s.device < int(capture.devices.size()) && s.pose >= 0 &&
                           s.pose < capture.pose_count();

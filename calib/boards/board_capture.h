@@ -1,8 +1,11 @@
 // What a rig of devices saw of a board that was held in several poses.
 #pragma once
 
+#include "sim/device.h"
+
 #include <glm/glm.hpp>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,7 +14,8 @@ namespace laterna {
 /// A camera or a projector of the rig, as far as it is known before calibrating.
 struct BoardDevice {
   std::string name;
-  glm::ivec2 size{0, 0};  ///< W, H in pixels
+  glm::ivec2 size{0, 0};          ///< W, H in pixels
+  std::optional<Device> known{};  ///< intrinsics and lens that are held; its placement is passed over
 };
 
 /// A point of the board and the pixel at which a device sees it or, for a projector, lights it. Integer
@@ -41,7 +45,8 @@ struct BoardCapture {
 };
 
 /// Throws InputError where a size is unusable, an index is out of range, a number is not finite, a sigma is
-/// not positive, or a pixel lies outside its device's image by more than a tenth of the size.
+/// not positive, known intrinsics are unsound or of another size, or a pixel lies outside its device's image
+/// by more than a tenth of the size.
 void validate(const BoardCapture& capture);
 
 /// The extent of all board points in x and y.
