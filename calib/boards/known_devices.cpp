@@ -68,13 +68,13 @@ std::string second_placement(const RigFit& fit) {
   if (fit.capture.devices[0].known) {
     for (int k = 0; k < fit.capture.pose_count(); ++k) {
       const std::string what = fmt::format(", pose {}", fit.capture.pose_labels[k]);
-      const std::string twin = twin_of(fit, 0, points_of(fit, 0, itself, k), what);
+      std::string twin = twin_of(fit, 0, points_of(fit, 0, itself, k), what);
       if (!twin.empty()) return twin;
     }
   }
   for (int d = 1; d < int(fit.capture.devices.size()); ++d) {
     if (!fit.capture.devices[d].known) continue;
-    const std::string twin = twin_of(fit, d, points_of(fit, d, boards, -1), "");
+    std::string twin = twin_of(fit, d, points_of(fit, d, boards, -1), "");
     if (!twin.empty()) return twin;
   }
   return "";
