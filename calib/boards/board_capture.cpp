@@ -16,6 +16,12 @@ bool finite(const glm::dvec3& x) { return std::isfinite(x.x) && std::isfinite(x.
 
 void validate(const Sighting& s, const BoardDevice& device, int label) {
   const auto place = [&] { return fmt::format("pose {}, corner {}, {}", label, s.corner, device.name); };
+  if (s.read_at) {
+    const glm::dmat2& slope = s.read_at->slope;
+    if (!finite({s.read_at->pixel, 0}) || !finite({slope[0], slope[1].x}) || !std::isfinite(slope[1].y))
+      throw InputError(
+          fmt::format("{}: the camera's pixel or the slope of a reading is not finite", place()));
+  }
   if (!finite(s.x_board) || !finite({s.pixel, 0})) {
     throw InputError(fmt::format("{}: board point ({}, {}, {}) and pixel ({}, {}), expected finite numbers",
                                  place(), s.x_board.x, s.x_board.y, s.x_board.z, s.pixel.x, s.pixel.y));
@@ -44,7 +50,8 @@ void validate(const BoardCapture& capture) {
   }
   for (const Sighting& s : capture.sightings) {
     const bool in_range = s.device >= 0 && s.device < int(capture.devices.size()) && s.pose >= 0 &&
-                          s.pose < capture.pose_count();
+                          s.pose < capture.pose_count() &&
+                          (!s.read_at || (s.read_at->device >= 0 && s.read_at->device < s.device));
     if (!in_range) {
       throw InputError(
           fmt::format("board capture: a sighting has device {} and pose {}, expected less than {} and {}",

@@ -18,6 +18,15 @@ struct BoardDevice {
   std::optional<Device> known{};  ///< intrinsics and lens that are held; its placement is passed over
 };
 
+/// The camera's sighting at which a projector's pixel was read. Its error e moves that pixel by slope·e,
+/// slope being the derivative of the projector's pixel by the camera's on the board; predict() (rig_rows.h)
+/// takes that back, so that the two are independent.
+struct ReadAt {
+  int device = 0;
+  glm::dvec2 pixel{0.0};
+  glm::dmat2 slope{0.0};
+};
+
 /// A point of the board and the pixel at which a device sees it or, for a projector, lights it. Integer
 /// coordinates are pixel centres.
 struct Sighting {
@@ -25,7 +34,8 @@ struct Sighting {
   int corner = 0;            ///< the file's own number, for messages only
   glm::dvec3 x_board{0.0};   ///< in the capture's unit of length
   glm::dvec2 pixel{0.0};
-  double sigma_px = 1;  ///< per coordinate
+  double sigma_px = 1;              ///< per coordinate; of the reading alone where it is `read_at`
+  std::optional<ReadAt> read_at{};  ///< none: pixels of different devices are independent
 };
 
 /// The board's extent in x and y, over which it may bend: (x - center)/half_size is in [-1, 1].
