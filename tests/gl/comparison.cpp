@@ -12,8 +12,8 @@ namespace laterna::gl {
 
 namespace {
 
-constexpr std::array<const char*, edge_count> names = {"unexplained", "border",     "texel edge", "seam",
-                                                       "crease",      "silhouette", "shadow edge"};
+constexpr std::array<const char*, edge_count> names = {"unexplained", "border",      "texel edge", "seam",
+                                                       "crease",      "shadow edge", "silhouette"};
 constexpr std::array<glm::u8vec3, edge_count> colors = {
     {{255, 0, 0}, {0, 160, 255}, {255, 140, 0}, {255, 255, 255}, {255, 220, 0}, {0, 220, 90}, {220, 0, 220}}};
 
@@ -63,8 +63,8 @@ Image<Edge> edges(const Scene& scene, const RayScene& rays, const SurfaceMap& su
   for (std::size_t p = 0; p < found.values.size(); ++p) {
     Edge& edge = found.values[p] = edge_of(scene.projectors[0], light, p);
     if (edge != Edge::none) continue;
-    if (shadow_edges && shadow_edges->values[p]) edge = Edge::shadow;
     if (jumps.values[p]) edge = Edge::silhouette;
+    if (shadow_edges && shadow_edges->values[p]) edge = Edge::shadow;
     if (sides.values[p] == 1 && scene.effects.irradiance) edge = Edge::crease;
     if (sides.values[p] == 2) edge = Edge::seam;
   }

@@ -18,12 +18,12 @@ inline constexpr double uv_tolerance_px = 0.01;
 /// What makes a pixel's value a matter of rounding. The first that holds, narrowest first.
 enum class Edge : std::uint8_t {
   none,
-  border,      ///< (u, v) is within uv_tolerance_px of the picture's edge
-  texel,       ///< nearest lookup: within uv_tolerance_px of the edge of a texel
-  seam,        ///< triangles meet here that do not share an edge (near_sides): OpenGL may see between them
-  crease,      ///< with irradiance: the edge of a triangle, where OpenGL may see its neighbour, lit otherwise
-  silhouette,  ///< a neighbour (of the eight) sees another surface (near_jumps)
-  shadow       ///< as the caller marks
+  border,     ///< (u, v) is within uv_tolerance_px of the picture's edge
+  texel,      ///< nearest lookup: within uv_tolerance_px of the edge of a texel
+  seam,       ///< triangles meet here that do not share an edge (near_sides): OpenGL may see between them
+  crease,     ///< with irradiance: the edge of a triangle, where OpenGL may see its neighbour, lit otherwise
+  shadow,     ///< as the caller marks
+  silhouette  ///< a neighbour (of the eight) sees another surface (near_jumps)
 };
 inline constexpr std::size_t edge_count = 7;
 

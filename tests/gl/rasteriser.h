@@ -21,7 +21,7 @@ struct RasterOptions {
   int camera = 0, projector = 0;  ///< indices into the scene
   bool hardware_border = false;   ///< GL_CLAMP_TO_BORDER, and nothing is discarded outside
   int shadow_map_px = 1024;       ///< n of n×n, where the scene has shadows
-  float shadow_slope = 1;         ///< glPolygonOffset's factor: depth per texel that is held for lit
+  float shadow_slope = 2;         ///< glPolygonOffset's factor: depth per texel that is held for lit
   float shadow_steps = 4;         ///< and its units
 };
 
