@@ -85,10 +85,11 @@ Differences compare_dn(const Image<std::uint8_t>& ours, const LightMap& light,
 }
 
 std::string text(const Differences& d) {
-  std::string line = fmt::format("{} lit, {} differ ({:.4f} %):", d.lit, d.differing, 100 * d.share());
-  for (std::size_t e = 0; e < edge_count; ++e)
-    line += fmt::format(" {} {}{}", names[e], d.at[e], e ? fmt::format(" of {},", d.beside[e]) : ",");
-  return line + fmt::format(" away from edges rms {:.2g}, greatest {:.2g}", d.rms, d.greatest);
+  std::string line = fmt::format("{} lit, {} differ ({:.4f} %): {} unexplained", d.lit, d.differing,
+                                 100 * d.share(), d.at[0]);
+  for (std::size_t e = 1; e < edge_count; ++e)
+    if (d.beside[e]) line += fmt::format(", {} {} of {}", names[e], d.at[e], d.beside[e]);
+  return line + fmt::format("; away from edges rms {:.2g}, greatest {:.2g}", d.rms, d.greatest);
 }
 
 }  // namespace laterna::gl

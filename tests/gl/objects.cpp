@@ -36,7 +36,7 @@ GLuint compile(GLenum kind, const char* source) {
 }
 
 template <class T>
-GLuint upload_as(const Image<T>& slide, GLint format, GLenum type, Lookup lookup, GLint wrap) {
+GLuint upload_as(const Image<T>& slide, GLint held, GLenum format, GLenum type, Lookup lookup, GLint wrap) {
   GLuint texture = 0;
   glGenTextures(1, &texture);
   glBindTexture(GL_TEXTURE_2D, texture);
@@ -46,7 +46,7 @@ GLuint upload_as(const Image<T>& slide, GLint format, GLenum type, Lookup lookup
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, wrap);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, wrap);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  glTexImage2D(GL_TEXTURE_2D, 0, format, slide.width, slide.height, 0, GL_RED, type,
+  glTexImage2D(GL_TEXTURE_2D, 0, held, slide.width, slide.height, 0, format, type,
                rows_flipped(slide).values.data());
   check_errors("the slide's upload");
   return texture;
@@ -135,10 +135,13 @@ Triangles upload(const Object& object) {
 }
 
 GLuint upload(const Image<std::uint8_t>& slide, Lookup lookup, GLint wrap) {
-  return upload_as(slide, GL_R8, GL_UNSIGNED_BYTE, lookup, wrap);
+  return upload_as(slide, GL_R8, GL_RED, GL_UNSIGNED_BYTE, lookup, wrap);
 }
 GLuint upload(const Image<float>& slide, Lookup lookup, GLint wrap) {
-  return upload_as(slide, GL_R32F, GL_FLOAT, lookup, wrap);
+  return upload_as(slide, GL_R32F, GL_RED, GL_FLOAT, lookup, wrap);
+}
+GLuint upload(const Image<glm::vec4>& slide, Lookup lookup, GLint wrap) {
+  return upload_as(slide, GL_RGBA32F, GL_RGBA, GL_FLOAT, lookup, wrap);
 }
 
 Target make_target(glm::ivec2 size, std::initializer_list<GLenum> colors) {

@@ -36,10 +36,11 @@ struct Triangles {
 };
 Triangles upload(const Object& object);
 
-/// A one-channel picture as a texture: 8 bits, or float, of which OpenGL promises a finer bilinear weight.
+/// A picture as a texture: 8 bits, or floats, of which OpenGL promises a finer bilinear weight.
 /// Beyond the edge: `wrap`, with a border colour of 0.
 GLuint upload(const Image<std::uint8_t>& slide, Lookup lookup, GLint wrap = GL_CLAMP_TO_EDGE);
 GLuint upload(const Image<float>& slide, Lookup lookup, GLint wrap = GL_CLAMP_TO_EDGE);
+GLuint upload(const Image<glm::vec4>& slide, Lookup lookup, GLint wrap = GL_CLAMP_TO_EDGE);
 
 /// Pictures to draw into, off screen.
 struct Target {

@@ -100,7 +100,8 @@ void Rasteriser::draw_light(GLuint slide, double saturation_cd_per_m2) {
     const glm::dmat4& m = object.world_from_object;
     set(light_program_, "clip_from_object", clip_from_world_ * m);
     set(light_program_, "texture_from_object",
-        texture_from_object(k, planes_, projector_.device.device_from_world, m));
+        options_.texture_from_texture *
+            texture_from_object(k, planes_, projector_.device.device_from_world, m));
     set(light_program_, "ray_from_object", ray_from_world * m);
     set(light_program_, "gain", object.albedo / std::numbers::pi * at_1_m / saturation_cd_per_m2);
   });

@@ -23,6 +23,8 @@ struct RasterOptions {
   int shadow_map_px = 1024;       ///< n of n×n, where the scene has shadows
   float shadow_slope = 2;         ///< glPolygonOffset's factor: depth per texel that is held for lit
   float shadow_steps = 4;         ///< and its units
+  glm::dmat4 texture_from_texture{
+      1.0};  ///< of another habit: comes after T; the size of the step is the caller\'s
 };
 
 /// Axial depths in metres that hold everything that the scene's meshes put before a device, with 1 % to

@@ -85,5 +85,46 @@ TEST_P(Shipped, LightAgrees) {
   report("light", found, ours, theirs.dn);
 }
 
+// What other systems write otherwise (README.md): given as a matrix that comes after T.
+class OtherHabits : public ::testing::Test {
+ protected:
+  RasterPicture drawn(const Image<std::uint8_t>& slide, const glm::dmat4& rows) const {
+    return Rasteriser(scene_, {.texture_from_texture = glm::transpose(rows)})
+        .picture(slide, plain_saturation(scene_));
+  }
+  const Context context_;
+  Scene scene_ = plain_scene("house");
+  const Image<std::uint8_t> slide_ = grains({1920, 1080});
+  static constexpr glm::dmat4 ours_{1.0};
+};
+
+TEST_F(OtherHabits, AnUnscaledRIsNotSeenInAPicture) {
+  const glm::dmat4 clip_r({1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 2, -1}, {0, 0, 0, 1});
+  EXPECT_EQ(drawn(slide_, clip_r).dn.values, drawn(slide_, ours_).dn.values);
+  const auto lit = [](const RasterPicture& picture) {
+    return std::ranges::count_if(picture.uvq1.values, [](const glm::vec4& v) { return v.w > 0; });
+  };
+  // A depth map sees it: r/q, now from -1 to 1, is always less than the map's depth from 0 to 1.
+  const auto without_shadows = lit(drawn(slide_, ours_));
+  scene_.effects.shadow = true;
+  EXPECT_LT(lit(drawn(slide_, ours_)), without_shadows);
+  EXPECT_EQ(lit(drawn(slide_, clip_r)), without_shadows);
+}
+
+TEST_F(OtherHabits, RowsAreFlippedAtUploadOrInT) {
+  const glm::dmat4 flip({1, 0, 0, 0}, {0, -1, 0, 1}, {0, 0, 1, 0}, {0, 0, 0, 1});
+  Image<std::uint8_t> unflipped = slide_;  // upload() flips it once more
+  for (int y = 0; y < slide_.height; ++y)
+    for (int x = 0; x < slide_.width; ++x) unflipped(x, y) = slide_(x, slide_.height - 1 - y);
+  const auto once = drawn(slide_, ours_).dn, in_t = drawn(unflipped, flip).dn, twice = drawn(slide_, flip).dn;
+  const auto differing = [&](const Image<std::uint8_t>& other) {
+    std::size_t count = 0;
+    for (std::size_t p = 0; p < once.values.size(); ++p) count += once.values[p] != other.values[p];
+    return double(count) / double(once.values.size());
+  };
+  EXPECT_LE(differing(in_t), 1e-3);  // texel edges: t′ = q - t rounds otherwise
+  EXPECT_GT(differing(twice), 0.5);
+}
+
 }  // namespace
 }  // namespace laterna::gl
