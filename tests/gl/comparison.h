@@ -47,10 +47,10 @@ struct Differences {
 /// Projector pixels, in texels: differing where beyond uv_tolerance_px, or lit in one only.
 Differences compare_uv(const LightMap& ours, const Image<glm::vec4>& theirs, const Image<Edge>& edges);
 
-/// 8-bit pictures: differing where by more than 1 DN, or lit in one only.
+/// 8-bit pictures: differing where by more than `allowed_dn`, or lit in one only.
 Differences compare_dn(const Image<std::uint8_t>& ours, const LightMap& light,
                        const Image<glm::vec4>& their_uvq1, const Image<std::uint8_t>& theirs,
-                       const Image<Edge>& edges);
+                       const Image<Edge>& edges, int allowed_dn = 1);
 
 /// One line for people.
 std::string text(const Differences& differences);

@@ -32,8 +32,8 @@ struct Shadowed {
     const RasterPicture theirs = Rasteriser(scene, options).picture(white, plain_saturation(scene));
     const auto near =
         near_shadow_edges(scene, traced.light, glm::dvec2(1920, 1080) / double(options.shadow_map_px));
-    const Differences found = compare_dn(ours, traced.light, theirs.uvq1, theirs.dn,
-                                         edges(scene, traced.rays, traced.surface, traced.light, &near));
+    Differences found = compare_dn(ours, traced.light, theirs.uvq1, theirs.dn,
+                                   edges(scene, traced.rays, traced.surface, traced.light, &near));
     report(fmt::format("{}, shadow map of {}", name, options.shadow_map_px), found, ours, theirs.dn);
     return found;
   }
