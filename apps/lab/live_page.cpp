@@ -53,8 +53,9 @@ std::string for_script(std::string text) {
 }
 
 constexpr char test_hook[] = R"(
-const wanted = /^#picture=(\d+)$/.exec(location.hash);
+const wanted = /^#picture=(\d+)(?:&keys=(.*))?$/.exec(location.hash);
 if (wanted) {
+  for (const key of decodeURIComponent(wanted[2] ?? "")) view.key(key);
   view.setSlide(Number(wanted[1]));
   const { rgba } = view.renderer.picture(view.state);
   const digits = [];

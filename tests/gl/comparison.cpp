@@ -2,7 +2,6 @@
 
 #include "sim/parallel.h"
 #include "tests/gl/jumps.h"
-#include "tests/gl/sides.h"
 
 #include <fmt/format.h>
 
@@ -12,8 +11,8 @@ namespace laterna::gl {
 
 namespace {
 
-constexpr std::array<const char*, edge_count> names = {"unexplained", "border",      "texel edge", "seam",
-                                                       "crease",      "shadow edge", "silhouette"};
+constexpr std::array<const char*, edge_count> names = {
+    "unexplained", "border", "texel edge", "seam", "crease", "shadow edge or step", "silhouette"};
 constexpr std::array<glm::u8vec3, edge_count> colors = {
     {{255, 0, 0}, {0, 160, 255}, {255, 140, 0}, {255, 255, 255}, {255, 220, 0}, {0, 220, 90}, {220, 0, 220}}};
 
@@ -57,8 +56,9 @@ Differences compare(const LightMap& light, const Image<glm::vec4>& theirs, const
 }  // namespace
 
 Image<Edge> edges(const Scene& scene, const RayScene& rays, const SurfaceMap& surface, const LightMap& light,
-                  const Image<std::uint8_t>* shadow_edges) {
-  const Image<std::uint8_t> jumps = near_jumps(scene, rays, surface), sides = near_sides(scene, surface);
+                  const Image<std::uint8_t>* shadow_edges, double snap_px) {
+  const Image<std::uint8_t> jumps = near_jumps(scene, rays, surface),
+                            sides = near_sides(scene, surface, snap_px);
   Image<Edge> found(surface.width, surface.height);
   for (std::size_t p = 0; p < found.values.size(); ++p) {
     Edge& edge = found.values[p] = edge_of(scene.projectors[0], light, p);
@@ -79,8 +79,8 @@ Differences compare_uv(const LightMap& ours, const Image<glm::vec4>& theirs, con
 
 Differences compare_dn(const Image<std::uint8_t>& ours, const LightMap& light,
                        const Image<glm::vec4>& their_uvq1, const Image<std::uint8_t>& theirs,
-                       const Image<Edge>& edges) {
-  return compare(light, their_uvq1, edges, 1,
+                       const Image<Edge>& edges, int allowed_dn) {
+  return compare(light, their_uvq1, edges, allowed_dn,
                  [&](std::size_t p) { return std::abs(int(ours.values[p]) - int(theirs.values[p])); });
 }
 

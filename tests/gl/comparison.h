@@ -5,6 +5,7 @@
 #include "render/direct_light.h"
 #include "sim/image.h"
 #include "tests/gl/rasteriser.h"
+#include "tests/gl/sides.h"
 
 #include <array>
 #include <string>
@@ -30,7 +31,7 @@ inline constexpr std::size_t edge_count = 7;
 /// The edge at each pixel, from our maps alone: nothing of OpenGL's picture goes into it. `shadow_edges`,
 /// where given, is not 0 near one.
 Image<Edge> edges(const Scene& scene, const RayScene& rays, const SurfaceMap& surface, const LightMap& light,
-                  const Image<std::uint8_t>* shadow_edges = nullptr);
+                  const Image<std::uint8_t>* shadow_edges = nullptr, double snap_px = mesa_snap_px);
 
 /// Pixels that are lit in either picture.
 struct Differences {

@@ -47,7 +47,7 @@ double distance_to_segment(const glm::dvec2& p, const glm::dvec2& a, const glm::
 
 }  // namespace
 
-Image<std::uint8_t> near_sides(const Scene& scene, const SurfaceMap& surface) {
+Image<std::uint8_t> near_sides(const Scene& scene, const SurfaceMap& surface, double snap_px) {
   const WorldProjection camera(scene.cameras[0].device);
   std::vector<std::vector<std::uint8_t>> open;
   for (const Object& object : scene.objects) open.push_back(open_edges(object.mesh));
@@ -62,7 +62,7 @@ Image<std::uint8_t> near_sides(const Scene& scene, const SurfaceMap& surface) {
     };
     const glm::ivec2 pixel(int(p % surface.width), int(p / surface.width));
     for (int e = 0; e < 3; ++e) {
-      if (distance_to_segment(glm::dvec2(pixel), pixel_of(e), pixel_of(e + 1)) > 2 * vertex_snap_px) continue;
+      if (distance_to_segment(glm::dvec2(pixel), pixel_of(e), pixel_of(e + 1)) > 2 * snap_px) continue;
       near.values[p] = std::max<std::uint8_t>(near.values[p], open[o][t] >> e & 1 ? 2 : 1);
     }
   }

@@ -73,6 +73,10 @@ const deviceKeys = {
   "-": (d) => zoom(d, 1 / 1.05),
 };
 
+// Keys that a control under the cursor needs itself.
+const hasOwnUse = (control, key) =>
+  control.matches("select, input[type=range], input[type=file]") || (control.matches("input[type=radio]") && key.startsWith("Arrow"));
+
 class LiveView {
   constructor(scene, parent) {
     this.scene = scene;
@@ -93,7 +97,12 @@ class LiveView {
     this.inputs = new Map();
     const labelled = (text, input) => element("label", {}, input, ` ${text}`);
     const moves = ["projector", "camera"].map((which) => {
-      const input = element("input", { type: "radio", name: "moves", onchange: () => this.set("moves", which) });
+      const input = element("input", {
+        type: "radio",
+        name: "moves",
+        onchange: () => this.set("moves", which),
+        onclick: (event) => event.detail && this.canvas.focus(), // by mouse: the arrow keys then are the device's
+      });
       this.inputs.set(which, input);
       return labelled(`${which} (${which === "camera" ? "c" : "p"})`, input);
     });
@@ -158,7 +167,7 @@ class LiveView {
       { passive: false },
     );
     document.addEventListener("keydown", (event) => {
-      if (event.ctrlKey || event.altKey || event.metaKey || /^(SELECT|INPUT)$/.test(event.target.tagName)) return;
+      if (event.ctrlKey || event.altKey || event.metaKey || hasOwnUse(event.target, event.key)) return;
       if (this.key(event.key)) event.preventDefault();
     });
   }
