@@ -23,9 +23,9 @@ namespace laterna {
 /// switches. Throws InputError where the scene has no camera or no projector.
 nlohmann::json live_json(const Scene& scene, const std::string& name);
 
-/// The page. Nothing is loaded from elsewhere. Opened with #picture=K, or #picture=K&keys=… after those keys, it holds, in <pre id="picture">, the
-/// camera's picture of slide K (0: white; patterns come last): per pixel, row by row, three hexadecimal
-/// digits: 1 where lit else 0, and the digital number of 8 bits.
+/// The page. Nothing is loaded from elsewhere. Opened with #picture=K, or #picture=K&keys=… after those keys,
+/// it holds, in <pre id="picture">, the camera's picture of slide K (0: white; patterns come last): per
+/// pixel, row by row, three hexadecimal digits: 1 where lit else 0, and the digital number of 8 bits.
 std::string live_page(const nlohmann::json& data);
 
 /// What the page leaves out of this scene, as a sentence; empty: nothing.
