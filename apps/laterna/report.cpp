@@ -1,0 +1,65 @@
+#include "apps/lab/report/report_data.h"
+#include "apps/lab/report/report_page.h"
+#include "apps/lab/report/static_figures.h"
+#include "apps/laterna/command.h"
+#include "sim/safe_write.h"
+
+#include <fmt/format.h>
+
+namespace laterna {
+
+namespace {
+
+struct Words {
+  std::string path, out, figures;
+  bool is_static = false;
+};
+
+// FOLDER/report.html, or FILE.html for a FILE.json.
+std::filesystem::path default_output(const std::filesystem::path& path) {
+  if (std::filesystem::is_directory(path)) return path / "report.html";
+  std::filesystem::path page = path;
+  return page.replace_extension(".html");
+}
+
+void write_figures(const nlohmann::json& data, const std::filesystem::path& target) {
+  PendingFolder folder(target);
+  for (const StaticFigure& figure : static_figures(data))
+    write_file(folder.path() / (figure.name + ".svg"), figure.svg);
+  folder.commit();
+}
+
+int run(const Words& words, const Common& common) {
+  const nlohmann::json data = report_data(words.path);
+  if (common.json) {
+    fmt::print("{}\n", data.dump());
+    return exit_ok;
+  }
+  const std::filesystem::path out = words.out.empty() ? default_output(words.path) : words.out;
+  const std::filesystem::path bundle = words.is_static ? std::filesystem::path{} : report_bundle();
+  if (bundle.empty() && !words.is_static)
+    progress(common, "no report.js beside the program (it was built without Node): static figures instead");
+  write_file(out, report_page(data, bundle));
+  if (!words.figures.empty()) write_figures(data, words.figures);
+  fmt::print("open {}\n", out.string());
+  return exit_ok;
+}
+
+}  // namespace
+
+void add_report(CLI::App& app, Common& common) {
+  auto words = std::make_shared<Words>();
+  CLI::App* command = add_command(
+      app, "report", "laterna report scene-roundtrip",
+      "Draws what Laterna left in a folder as one HTML file that opens offline: a round trip, a "
+      "capture, a calibration\nfrom boards, a chart or an atlas. With --json, prints the data that "
+      "the page holds, and writes nothing.");
+  command->add_option("PATH", words->path, "Folder, or JSON by `laterna calibrate --board`")->required();
+  command->add_option("-o,--output", words->out,
+                      "HTML file, replaced where it exists (default: PATH/report.html)");
+  command->add_option("--figures", words->figures, "New folder for each figure as static SVG");
+  command->add_flag("--static", words->is_static, "Static SVG figures and no script");
+  command->callback([words, &common] { common.exit_code = run(*words, common); });
+}
+
+}  // namespace laterna

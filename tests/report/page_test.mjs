@@ -1,0 +1,173 @@
+// The report's page in headless Chromium: node page_test.mjs LATERNA NODE_MODULES CHROMIUM SOURCE SCRATCH
+// It loads with no console error and no request, its numbers are the data's, every figure draws, the slider moves. Screenshots stay in SCRATCH.
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { cpSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { createRequire } from "node:module";
+import { join } from "node:path";
+
+const [laterna, modules, chromiumPath, source, scratch] = process.argv.slice(2);
+const { chromium } = createRequire(join(modules, "x.js"))("playwright-core");
+rmSync(scratch, { recursive: true, force: true });
+mkdirSync(scratch, { recursive: true });
+const run = (...words) => {
+  try {
+    return execFileSync(laterna, words, { cwd: scratch, encoding: "utf8", stdio: ["ignore", "pipe", "ignore"], maxBuffer: 1 << 28 });
+  } catch (error) {
+    if (error.status === 3 || error.status === 4) return error.stdout; // refused or weak is an answer too
+    throw error;
+  }
+};
+
+// A 7×6 board in six places before an ideal camera and projector, with a little deterministic noise.
+function boardTable() {
+  const lines = ["pose,corner,board_x,board_y,board_z,cam_x,cam_y,proj_x,proj_y,valid"];
+  const tilts = [[0, 0], [0.5, 0], [-0.4, 0.2], [0, 0.5], [0.1, -0.5], [0.4, 0.4]];
+  let noise = 1;
+  const jitter = () => ((noise = (noise * 16807) % 2147483647) / 2147483647 - 0.5) * 0.2;
+  tilts.forEach(([a, b], pose) => {
+    for (let corner = 0; corner < 42; ++corner) {
+      const x = (corner % 7) * 0.03 - 0.09, y = Math.floor(corner / 7) * 0.03 - 0.075;
+      const z = 0.8 + 0.07 * pose + x * Math.sin(b) + y * Math.sin(a), X = x * Math.cos(b) + 0.02 * (pose - 2), Y = y * Math.cos(a);
+      const pixel = (f, cx, cy, offset) => `${(f * (X + offset)) / z + cx + jitter()},${(f * Y) / z + cy + jitter()}`;
+      lines.push(`${pose},${corner},${x + 0.09},${y + 0.075},0,${pixel(1400, 640, 512, 0)},${pixel(1500, 512, 700, 0.12)},1`);
+    }
+  });
+  return lines.join("\n") + "\n";
+}
+
+const scene = `
+[[mesh]]
+shape = "relief"
+shape_size = [1.6, 1.0, 0.7]
+seed = 7
+[[projector]]
+name = "left"
+size = [320, 200]
+throw_ratio = 1.2
+lens_shift = [0.0, 0.1]
+position = [0.35, -0.1, 2.1]
+look_at = [0, 0, 0]
+up = [0, 1, 0]
+[[camera]]
+name = "cam"
+size = [400, 250]
+fov_x_deg = 42
+position = [-0.35, 0.15, 2.0]
+look_at = [0, 0, 0]
+up = [0.1, 1, 0]
+`;
+
+// One folder with everything that a page can hold.
+function gather() {
+  writeFileSync(join(scratch, "scene.toml"), scene);
+  run("roundtrip", "scene.toml", "-o", "all");
+  run("atlas", join(source, "data/atlas/standard.toml"), "-o", "atlas", "--cell", "few points: points=8");
+  for (const name of ["atlas.json", "cells.json"]) cpSync(join(scratch, "atlas", name), join(scratch, "all", name));
+  const point = (label, error_px, seconds) => ({ label, error_px, bound_px: error_px * 0.8, seconds, spread_px: error_px / 5, command: `laterna chart ${label} </script>` });
+  const chart = { points: [point("gray", 0.003, 0.5), point("phase", 0.0018, 0.3), point("many", 0.0009, 0.9)], pareto: ["phase", "many"] };
+  writeFileSync(join(scratch, "all/chart.json"), JSON.stringify(chart));
+  writeFileSync(join(scratch, "board.csv"), boardTable());
+  run("calibrate", "board.csv", "--camera-size", "1280x1024", "--projector-size", "1024x768", "-o", "all/board.json");
+  run("report", "all", "-o", "page.html");
+  run("report", "all", "-o", "static.html", "--static");
+  return JSON.parse(run("report", "all", "--json"));
+}
+
+const flags = ["--no-sandbox", "--disable-background-networking", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist"];
+
+// A page whose every complaint and request is kept.
+async function open(browser, name, options) {
+  const page = await browser.newPage({ viewport: { width: 1000, height: 1000 }, ...options });
+  const complaints = [];
+  page.on("console", (message) => ["error", "warning"].includes(message.type()) && !message.text().includes("GPU stall") && complaints.push(message.text()));
+  page.on("pageerror", (error) => complaints.push(String(error)));
+  page.on("request", (request) => /^(data|blob):/.test(request.url()) || request.url().endsWith(name) || complaints.push("request " + request.url()));
+  await page.goto("file://" + join(scratch, name));
+  await page.waitForTimeout(700);
+  return { page, complaints };
+}
+
+async function numbersEqual(page, data) {
+  const shown = await page.$$eval("data", (all) => all.map((e) => [JSON.parse(e.dataset.path), e.value, e.textContent]));
+  assert.ok(shown.length > 100, `${shown.length} numbers on the page`);
+  for (const [path, value, text] of shown) {
+    const truth = path.reduce((inner, key) => inner[key], data);
+    assert.equal(Number(value), truth, path.join("."));
+    assert.ok(Math.abs(Number(text) - truth) <= 5.1e-4 * Math.abs(truth), `${path.join(".")}: ${text} for ${truth}`); // four digits
+  }
+}
+
+async function figuresDraw(page) {
+  const figures = await page.$$eval("figure [role=img]", (all) => all.filter((e) => e.tagName !== "CANVAS").map((e) => ({
+    name: e.getAttribute("aria-label"), marks: e.querySelectorAll("path, circle, rect, line").length, bad: /NaN|undefined|Infinity/.test(e.outerHTML) })));
+  assert.ok(figures.length >= 11, `${figures.length} figures`);
+  for (const f of figures) {
+    assert.ok(f.name, "a figure without a name");
+    assert.ok(f.marks >= 3, `${f.name}: ${f.marks} marks`);
+    assert.ok(!f.bad, `${f.name}: NaN`);
+  }
+  const colours = await page.$eval("canvas.rig", (canvas) => {
+    const copy = Object.assign(document.createElement("canvas"), { width: 200, height: 112 }), context = copy.getContext("2d");
+    context.drawImage(canvas, 0, 0, 200, 112);
+    return new Set(new Uint32Array(context.getImageData(0, 0, 200, 112).data.buffer)).size;
+  });
+  assert.ok(colours > 50, `the rig has ${colours} colours`);
+}
+
+async function sliderMoves(page) {
+  const state = () => page.$eval("figure.leaf", (f) => [f.querySelector("img").src, f.querySelector("img").alt, f.querySelector("output").textContent]);
+  const before = await state();
+  await page.focus("input[type=range]");
+  await page.keyboard.press("ArrowLeft");
+  const after = await state();
+  for (let k = 0; k < 3; ++k) assert.notEqual(before[k], after[k]);
+}
+
+async function rigTurns(page) {
+  const picture = () => page.$eval("canvas.rig", (canvas) => canvas.toDataURL());
+  const before = await picture();
+  await page.focus("canvas.rig");
+  await page.keyboard.press("ArrowLeft");
+  assert.notEqual(before, await picture());
+}
+
+async function cellOpens(page, data) {
+  await page.goto(page.url().split("#")[0] + "#cell-1");
+  await page.waitForSelector("#cell");
+  assert.ok((await page.textContent("#cell")).includes(data.atlas.cells[1].command));
+}
+
+async function readable(page) {
+  assert.equal(await page.$$eval("img", (all) => all.filter((e) => !e.alt).length), 0, "images without words");
+  assert.equal(await page.$$eval("input", (all) => all.filter((e) => !e.labels.length).length), 0, "inputs without a label");
+  assert.equal(await page.$$eval("main, nav, header", (all) => all.length), 3, "landmarks");
+  assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), "wider than the window");
+}
+
+const data = gather();
+const browser = await chromium.launch({ executablePath: chromiumPath, args: flags });
+try {
+  const { page, complaints } = await open(browser, "page.html");
+  const ids = await page.$$eval("main > section", (all) => all.map((e) => e.id));
+  assert.deepEqual(ids, ["summary", "pictures", "rig", "residuals", "projection", "board", "chart", "atlas"]);
+  await numbersEqual(page, data);
+  await figuresDraw(page);
+  await readable(page);
+  await page.screenshot({ path: join(scratch, "light.png"), fullPage: true });
+  await sliderMoves(page);
+  await rigTurns(page);
+  await cellOpens(page, data);
+  assert.deepEqual(complaints, []);
+  const dark = await open(browser, "page.html", { colorScheme: "dark" });
+  const paper = await dark.page.evaluate(() => getComputedStyle(document.body).backgroundColor);
+  assert.ok(paper.match(/\d+/g).every((level) => Number(level) < 64), paper);
+  await dark.page.screenshot({ path: join(scratch, "dark.png"), fullPage: true });
+  const still = await open(browser, "static.html");
+  assert.ok((await still.page.$$("svg")).length >= 5);
+  assert.equal((await still.page.$$("script")).length, 0);
+  assert.deepEqual([...dark.complaints, ...still.complaints], []);
+  await still.page.screenshot({ path: join(scratch, "static.png"), fullPage: true });
+} finally {
+  await browser.close();
+}
