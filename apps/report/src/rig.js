@@ -59,7 +59,7 @@ function place(camera, controls, scene, devices, aim) {
   camera.up.copy(up);
   camera.near = ball.radius / 100; camera.far = ball.radius * 100;
   controls.target.copy(ball.center);
-  camera.position.copy(ball.center).addScaledVector(from, 1.15 * ball.radius / Math.sin(THREE.MathUtils.degToRad(camera.fov / 2)));
+  camera.position.copy(ball.center).addScaledVector(from, 0.9 * ball.radius / Math.sin(THREE.MathUtils.degToRad(camera.fov / 2)));
 }
 
 // Arrow keys turn, + and - come nearer and step back.
