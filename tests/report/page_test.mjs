@@ -28,7 +28,8 @@ function boardTable() {
   tilts.forEach(([a, b], pose) => {
     for (let corner = 0; corner < 42; ++corner) {
       const x = (corner % 7) * 0.03 - 0.09, y = Math.floor(corner / 7) * 0.03 - 0.075;
-      const z = 0.8 + 0.07 * pose + x * Math.sin(b) + y * Math.sin(a), X = x * Math.cos(b) + 0.02 * (pose - 2), Y = y * Math.cos(a);
+      const z = 0.8 + 0.07 * pose - x * Math.sin(b) + y * Math.sin(a) * Math.cos(b);
+      const X = x * Math.cos(b) + y * Math.sin(a) * Math.sin(b) + 0.02 * (pose - 2), Y = y * Math.cos(a);
       const pixel = (f, cx, cy, offset) => `${(f * (X + offset)) / z + cx + jitter()},${(f * Y) / z + cy + jitter()}`;
       lines.push(`${pose},${corner},${x + 0.09},${y + 0.075},0,${pixel(1400, 640, 512, 0)},${pixel(1500, 512, 700, 0.12)},1`);
     }
