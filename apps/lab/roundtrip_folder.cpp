@@ -67,7 +67,8 @@ nlohmann::json figures_json(const Scene& scene, const Traced& traced, const std:
                              {"frames", k.frames}});
     if (o.solve.status == Status::refused) continue;
     json["residuals"].push_back(residual_figure(k.decoded, traced.points_world[k.view->camera],
-                                                o.solve.estimate, scene.cameras[k.view->camera].device.name));
+                                                o.solve.estimate, scene.cameras[k.view->camera].device.name,
+                                                o.name));
   }
   std::vector<glm::dvec3> all;
   for (const ProjectorOutcome& o : outcomes) {

@@ -35,7 +35,8 @@ int run(const Words& words, const Common& common) {
     fmt::print("{}\n", data.dump());
     return exit_ok;
   }
-  const std::filesystem::path out = words.out.empty() ? default_output(words.path) : words.out;
+  const std::filesystem::path out =
+      words.out.empty() ? default_output(words.path) : std::filesystem::path(words.out);
   const std::filesystem::path bundle = words.is_static ? std::filesystem::path{} : report_bundle();
   if (bundle.empty() && !words.is_static)
     progress(common, "no report.js beside the program (it was built without Node): static figures instead");

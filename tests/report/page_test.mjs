@@ -104,7 +104,7 @@ async function figuresDraw(page) {
     name: e.getAttribute("aria-label"), marks: e.querySelectorAll("path, circle, rect, line").length, bad: /NaN|undefined|Infinity/.test(e.outerHTML) })));
   assert.ok(figures.length >= 11, `${figures.length} figures`);
   for (const f of figures) {
-    assert.ok(f.name, "a figure without a name");
+    assert.ok(f.name && !f.name.includes("“”"), `a figure without a name: ${f.name}`);
     assert.ok(f.marks >= 3, `${f.name}: ${f.marks} marks`);
     assert.ok(!f.bad, `${f.name}: NaN`);
   }

@@ -113,7 +113,7 @@ void add_sequence(const fs::path& folder, const CaptureSequence& sequence, const
       for (const Projector& p : scene->projectors) {
         if (!estimate || p.device.name != sequence.projector || lit.empty()) continue;
         data["figures"]["residuals"].push_back(
-            residual_figure(decoded.map, points, estimate->device, sequence.camera));
+            residual_figure(decoded.map, points, estimate->device, sequence.camera, sequence.projector));
         data["figures"]["projections"].push_back(
             projection_figure(p.device, estimate->device, estimate->covariance, lit));
       }

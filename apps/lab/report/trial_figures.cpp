@@ -168,7 +168,7 @@ Json rig_figure(const Scene& scene) {
 }
 
 Json residual_figure(const DecodedMap& decoded, const PixelArray<glm::dvec3>& points_world,
-                     const Device& estimate, const std::string& camera) {
+                     const Device& estimate, const std::string& camera, const std::string& projector) {
   std::size_t valid = 0;
   const std::vector<Residual> residuals = residuals_of(decoded, points_world, estimate, valid);
   if (residuals.empty()) return nullptr;
@@ -183,7 +183,7 @@ Json residual_figure(const DecodedMap& decoded, const PixelArray<glm::dvec3>& po
   }
   const double rms = rms_of(errors);
   return {{"camera", camera},
-          {"projector", estimate.name},
+          {"projector", projector},
           {"points", valid},
           {"used", residuals.size()},
           {"rms_px", rms},

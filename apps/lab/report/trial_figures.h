@@ -21,7 +21,8 @@ nlohmann::json rig_figure(const Scene& scene);
 /// and dv together over ±4 rms(du, dv) in 40 bins; `predicted` is how many normal deviates of the stated
 /// standard deviations fall into each. null where nothing is valid.
 nlohmann::json residual_figure(const DecodedMap& decoded, const PixelArray<glm::dvec3>& points_world,
-                               const Device& estimate, const std::string& camera);
+                               const Device& estimate, const std::string& camera,
+                               const std::string& projector);
 
 /// Estimate against truth, and its own standard deviation, over the projector's image: {"projector",
 /// "lit_depths_m": [5 %, 95 %], "depths_m": [three of them], "grid": [{"depth_m", "u", "v", "du", "dv",
