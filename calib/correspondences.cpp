@@ -9,6 +9,35 @@
 
 namespace laterna {
 
+namespace {
+
+void validate_cameras(const Correspondences& c) {
+  const std::size_t n = c.cameras.empty() ? 0 : c.world_points.size();
+  if (c.camera.size() != n || c.normals_world.size() != n) {
+    throw InputError(
+        fmt::format("correspondences: {} camera ids and {} normals for {} uncertain cameras, expected {} of "
+                    "each",
+                    c.camera.size(), c.normals_world.size(), c.cameras.size(), n));
+  }
+  for (const UncertainCamera& camera : c.cameras) {
+    const std::size_t p = camera.device.lens.parameters.size() + 10;
+    const bool finite = std::all_of(camera.covariance.begin(), camera.covariance.end(),
+                                    [](double x) { return std::isfinite(x); });
+    if (finite && (camera.covariance.empty() || camera.covariance.size() == p * p)) continue;
+    throw InputError(fmt::format("camera \"{}\": a covariance of {} numbers, expected {}×{} finite ones",
+                                 camera.device.name, camera.covariance.size(), p, p));
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    if (c.camera[i] >= c.cameras.size())
+      throw InputError(fmt::format("correspondence {}: camera {} of {}", i, c.camera[i], c.cameras.size()));
+    if (!(std::abs(glm::length(c.normals_world[i]) - 1) < 1e-6))
+      throw InputError(fmt::format("correspondence {}: a normal of length {}, expected 1", i,
+                                   glm::length(c.normals_world[i])));
+  }
+}
+
+}  // namespace
+
 void validate(const Correspondences& c) {
   const std::size_t n = c.world_points.size();
   if (c.projector_pixels.size() != n || c.sigma_px.size() != n ||
@@ -32,15 +61,20 @@ void validate(const Correspondences& c) {
           fmt::format("correspondence {}: sigma is {} px, expected a positive number", i, c.sigma_px[i]));
     }
   }
+  validate_cameras(c);
 }
 
 Correspondences subset(const Correspondences& c, const std::vector<std::size_t>& indices) {
   Correspondences chosen;
+  chosen.cameras = c.cameras;
   for (const std::size_t i : indices) {
     chosen.world_points.push_back(c.world_points[i]);
     chosen.projector_pixels.push_back(c.projector_pixels[i]);
     chosen.sigma_px.push_back(c.sigma_px[i]);
     if (!c.cluster.empty()) chosen.cluster.push_back(c.cluster[i]);
+    if (c.cameras.empty()) continue;
+    chosen.camera.push_back(c.camera[i]);
+    chosen.normals_world.push_back(c.normals_world[i]);
   }
   return chosen;
 }

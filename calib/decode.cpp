@@ -1,6 +1,7 @@
 #include "calib/decode.h"
 
 #include "calib/decode_board.h"
+#include "calib/repeat_check.h"
 #include "sim/error.h"
 #include "sim/parallel.h"
 
@@ -75,6 +76,8 @@ DecodedMap decode(const CapturedStack& pictures, const PatternSequence& sequence
   if (options.max_neighbour_step_px && !(*options.max_neighbour_step_px >= 0))
     throw InputError(fmt::format("decode: a neighbours' step of {} px, expected at least 0",
                                  *options.max_neighbour_step_px));
+  if (sequence.parameters.repeat_first)
+    return decode(without_repeat(pictures, sequence), without_repeat(sequence), options);
   DecodedMap map = decode_family(pictures, sequence, options);
   const double step = options.max_neighbour_step_px.value_or(default_step_px(sequence));
   if (step > 0) reject_steep(map, step);

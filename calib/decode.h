@@ -18,8 +18,9 @@ struct DecodeOptions {
   std::optional<double> max_neighbour_step_px{};
 };
 
-/// Decodes by family: decode_gray(), decode_phase() or decode_board(), then looks at the neighbours. Throws
-/// InputError as those do, and for a slide or pictures from files, which tell no pixel its place.
+/// Decodes by family: decode_gray(), decode_phase() or decode_board(), then looks at the neighbours. A
+/// repeated first picture is left out (report_on() compares it). Throws InputError as those do, and for a
+/// slide or pictures from files, which tell no pixel its place.
 DecodedMap decode(const CapturedStack& pictures, const PatternSequence& sequence,
                   const DecodeOptions& options = {});
 

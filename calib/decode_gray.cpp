@@ -148,6 +148,8 @@ auto with_pictures(const CapturedStack& pictures, const PatternSequence& sequenc
   const PatternKind kind = sequence.parameters.kind;
   if (kind != PatternKind::gray && kind != PatternKind::xor_gray)
     throw InputError("Gray code: the patterns are of another family, expected gray or xor_gray");
+  if (sequence.parameters.repeat_first)
+    throw InputError("Gray code: the first picture is repeated, expected without_repeat()");
   return std::visit(
       [&](const auto& stack) {
         validate(stack, sequence, options);

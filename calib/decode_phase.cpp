@@ -150,6 +150,8 @@ DecodedMap decode_phase(const CapturedStack& pictures, const PatternSequence& se
   const PatternKind kind = sequence.parameters.kind;
   if (!is_coded(kind) || kind == PatternKind::gray || kind == PatternKind::xor_gray)
     throw InputError("phase: the patterns are of another family, expected one with fringes");
+  if (sequence.parameters.repeat_first)
+    throw InputError("phase: the first picture is repeated, expected without_repeat()");
   Decoding out;
   std::visit(
       [&](const auto& stack) {

@@ -1,8 +1,11 @@
 #include "calib/decode_report.h"
 
+#include "calib/bent_response.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace laterna {
 
@@ -10,7 +13,8 @@ namespace {
 
 constexpr double contrast_share = 40 / 255.0;  // where sums are looked at: noise matters less
 constexpr double bent_misfit = 0.08, odd_misfit = 0.03, odd_factor = 3;
-constexpr double many = 0.4;  // a dropped picture of a code takes half of the pixels
+constexpr double bent_shift_px = 0.1;  // below it, periods average out before it matters
+constexpr double many = 0.4;           // a dropped picture of a code takes half of the pixels
 
 constexpr const char* names[reject_reasons] = {"valid",    "dim",     "saturated", "pair",
                                                "disagree", "outside", "steep"};
@@ -30,40 +34,80 @@ double median_misfit(std::vector<GroupMisfit> misfits) {
   return middle->misfit;
 }
 
+// A response bends all fringes alike; a lost picture only its own.
+double least_misfit(const std::vector<GroupMisfit>& misfits) {
+  return std::min_element(misfits.begin(), misfits.end(),
+                          [](const GroupMisfit& a, const GroupMisfit& b) { return a.misfit < b.misfit; })
+      ->misfit;
+}
+
 std::string group_name(const PatternSequence& sequence, const PatternGroup& group) {
   return fmt::format("\"{}\" to \"{}\"", picture_name(sequence, group.first),
                      picture_name(sequence, group.first + group.count - 1));
+}
+
+void doubt(std::string flag, DecodeReport& report) {
+  report.doubts.push_back(flag);
+  report.flags.push_back(std::move(flag));
+}
+
+// The shift of places by the finest fringe, whose sums are off by the least misfit.
+double shift_px(const std::vector<GroupMisfit>& fringes) {
+  const auto finest = std::min_element(fringes.begin(), fringes.end(), [](const auto& a, const auto& b) {
+    return a.group.pitch_px < b.group.pitch_px;
+  });
+  const double n = finest->group.count;
+  const double mean_rest = least_misfit(fringes) * std::sqrt(n + n * n / 2) / n;
+  return bent_response_shift_px(mean_rest, finest->group.count, finest->group.pitch_px);
+}
+
+void flag_response(const PatternSequence& sequence, const std::vector<GroupMisfit>& fringes,
+                   DecodeReport& report) {
+  const double shift = shift_px(fringes);
+  const std::string words = fmt::format(
+      "the steps of the fringes do not sum to half of white and black: the response is not linear (a gamma, "
+      "which would shift places by {:.2g} px rms), or pictures are in another order",
+      shift);
+  if (shift > bent_shift_px || sequence.parameters.kind == PatternKind::micro_phase)
+    doubt(words, report);
+  else
+    report.flags.push_back(words);
 }
 
 void flag_sums(const PatternSequence& sequence, DecodeReport& report) {
   std::vector<GroupMisfit> fringes;
   for (const GroupMisfit& m : report.misfits)
     if (m.group.kind == PatternGroup::Kind::fringe) fringes.push_back(m);
-  if (!fringes.empty() && median_misfit(fringes) > bent_misfit) {
-    report.flags.push_back(
-        "the steps of the fringes do not sum to half of white and black: the response is not linear (a "
-        "gamma), or "
-        "pictures are in another order");
-  }
+  const bool bent = !fringes.empty() && least_misfit(fringes) > bent_misfit;
+  if (bent) flag_response(sequence, fringes, report);
   if (report.misfits.size() < 3) return;
   const double typical = median_misfit(report.misfits);
   for (const GroupMisfit& m : report.misfits) {
-    const bool bent = m.group.kind == PatternGroup::Kind::fringe && !fringes.empty() &&
-                      median_misfit(fringes) > bent_misfit;
-    if (bent || m.misfit <= odd_misfit || m.misfit <= odd_factor * typical) continue;
-    report.flags.push_back(
-        fmt::format("{} do not sum to white and black as the others do: a dropped or exchanged picture",
-                    group_name(sequence, m.group)));
+    const bool is_fringe = m.group.kind == PatternGroup::Kind::fringe;
+    const double usual = bent && is_fringe ? least_misfit(fringes) : typical;
+    if (m.misfit <= odd_misfit || m.misfit <= odd_factor * usual) continue;
+    doubt(fmt::format("{} do not sum to white and black as the others do: a dropped or exchanged picture",
+                      group_name(sequence, m.group)),
+          report);
   }
+}
+
+void flag_repeat(const CapturedStack& pictures, const PatternSequence& sequence, DecodeReport& report) {
+  report.repeat = compare_repeat(pictures, sequence);
+  if (!report.repeat || !has_moved(*report.repeat)) return;
+  doubt(fmt::format("the rig or the scene moved between the first and the last picture: {:.2g} % of the lit "
+                    "pixels changed, which should be equal",
+                    100 * report.repeat->changed_share),
+        report);
 }
 
 void flag_black_and_white(const CapturedStack& pictures, double contrast, DecodeReport& report) {
   const double outside = outside_black_and_white(pictures, contrast);
   if (outside > 0.01) {
-    report.flags.push_back(
-        fmt::format("{:.0f} % of the pixels are brighter than in white, or darker than in black: white or "
-                    "black was dropped or exchanged",
-                    100 * outside));
+    doubt(fmt::format("{:.0f} % of the pixels are brighter than in white, or darker than in black: white or "
+                      "black was dropped or exchanged, or the rig or the scene moved",
+                      100 * outside),
+          report);
   }
   if (report.percent[int(Reject::dim)] == 100)
     report.flags.push_back("no pixel is lit: white is nowhere brighter than black");
@@ -93,19 +137,32 @@ void flag_orientation(DecodeReport& report) {
 
 const char* reject_name(Reject reason) { return names[int(reason)]; }
 
+namespace {
+
+// All that is told by the pictures without a repeat.
+void report_on_plain(const CapturedStack& pictures, const PatternSequence& sequence, DecodeReport& report) {
+  const double contrast = contrast_share * full_scale_dn(pictures);
+  report.misfits = sum_misfits(pictures, pattern_groups(sequence), contrast);
+  flag_sums(sequence, report);
+  flag_black_and_white(pictures, contrast, report);
+  flag_orientation(report);
+  flag_shares(report);
+}
+
+}  // namespace
+
 DecodeReport report_on(const CapturedStack& pictures, const PatternSequence& sequence,
                        const DecodedMap& map) {
   DecodeReport report;
   for (const Reject why : map.why.values) report.percent[int(why)] += 100.0 / double(map.why.values.size());
   report.valid_percent = report.percent[0];
   report.orientation = orientation_of(map);
-  if (is_coded(sequence.parameters.kind)) {
-    const double contrast = contrast_share * full_scale_dn(pictures);
-    report.misfits = sum_misfits(pictures, pattern_groups(sequence), contrast);
-    flag_sums(sequence, report);
-    flag_black_and_white(pictures, contrast, report);
-    flag_orientation(report);
-    flag_shares(report);
+  if (!is_coded(sequence.parameters.kind)) return report;
+  if (!sequence.parameters.repeat_first) {
+    report_on_plain(pictures, sequence, report);
+  } else {
+    report_on_plain(without_repeat(pictures, sequence), without_repeat(sequence), report);
+    flag_repeat(pictures, sequence, report);
   }
   return report;
 }

@@ -47,11 +47,41 @@ class Fitter {
     }
     fit_fringe(samples_.data(), steps_, p.data(), q.data(), fit_.mean.size(),
                {fit_.mean.data(), fit_.c.data(), fit_.s.data(), fit_.turns.data()});
-    for (std::size_t i = 0; i < fit_.mean.size(); ++i) judge(i);
+    if (per_dn_ == 0 && !saturates()) {
+      judge_all();
+    } else {
+      for (std::size_t i = 0; i < fit_.mean.size(); ++i) judge(i);
+    }
     return std::move(fit_);
   }
 
  private:
+  bool saturates() const {
+    T largest = 0;
+    for (const T* samples : samples_)
+      for (std::size_t i = 0; i < fit_.mean.size(); ++i) largest = std::max(largest, samples[i]);
+    return largest >= limits_.full_scale_dn;
+  }
+
+  /// judge() of every pixel where noise is constant and nothing saturates.
+  void judge_all() {
+    const FringeSamples<T> samples{samples_.data(),
+                                   steps_,
+                                   cosines_.data(),
+                                   sines_.data(),
+                                   white_,
+                                   black_,
+                                   float(limits_.full_scale_dn),
+                                   constant_,
+                                   float(limits_.min_modulation_dn),
+                                   largest_variance_,
+                                   large_chi2};
+    const std::size_t count = fit_.mean.size();
+    fringe_variance(samples, fit_.mean.data(), fit_.c.data(), fit_.s.data(), count, fit_.variance.data());
+    for (std::size_t i = 0; i < count; ++i)
+      if (!(fit_.variance[i] < infinite)) fit_.why[i] = Reject::dim;
+  }
+
   void judge(std::size_t i) {
     int saturated = 0;
     for (int j = 0; j < steps_; ++j) saturated += samples_[j][i] >= limits_.full_scale_dn;

@@ -86,6 +86,48 @@ void fit_fringe_16(const std::uint16_t* const* pictures, int steps, const float*
   fit_all(pictures, steps, cosines, sines, count, out);
 }
 
+template <class T>
+HWY_INLINE void variance_all(const FringeSamples<T>& f, const float* mean, const float* c, const float* s,
+                             std::size_t count, float* variance) {
+  constexpr float turn_squared = 39.4784176f;  // (2π)²
+  const float n = float(f.steps);
+  for_all(count, [&](auto d, std::size_t i) HWY_ATTR {
+    const auto m = hn::LoadU(d, mean + i), vc = hn::LoadU(d, c + i), vs = hn::LoadU(d, s + i);
+    auto squares = hn::Zero(d);
+    for (int j = 0; f.steps > 3 && j < f.steps; ++j) {
+      auto rest = hn::Sub(load_floats(d, f.pictures[j] + i), m);
+      rest = hn::Sub(rest, hn::Mul(vc, hn::Set(d, f.cosines[j])));
+      rest = add_product(vs, hn::Set(d, f.sines[j]), rest);
+      squares = add_product(rest, rest, squares);
+    }
+    const auto one = hn::Set(d, 1.0f), white = load_floats(d, f.white + i);
+    const auto both = hn::Add(white, load_floats(d, f.black + i));
+    const auto off = hn::Sub(m, hn::Mul(hn::Set(d, 0.5f), both));
+    const auto has_sum = hn::Lt(white, hn::Set(d, f.full_scale));
+    const auto by_sum = hn::Mul(hn::Mul(off, off), hn::Set(d, 1 / (1 / n + 0.5f)));
+    const auto chi2 =
+        hn::Mul(hn::Add(squares, hn::IfThenElseZero(has_sum, by_sum)), hn::Set(d, 1 / f.constant));
+    const auto freedom = hn::Add(hn::Set(d, n - 3), hn::IfThenElseZero(has_sum, one));
+    const auto misfit = hn::Div(chi2, hn::Max(freedom, one));  // without freedom χ² is 0
+    const auto squared = add_product(vs, vs, hn::Mul(vc, vc));
+    const auto plain = hn::Div(hn::Set(d, 2 * f.constant / n), squared);
+    const auto grown = hn::IfThenElse(hn::Gt(misfit, hn::Set(d, f.max_chi2)), hn::Mul(plain, misfit), plain);
+    const auto clear = hn::And(hn::Ge(squared, hn::Set(d, f.min_modulation * f.min_modulation)),
+                               hn::Le(plain, hn::Set(d, f.max_variance)));
+    const auto none = hn::Set(d, std::numeric_limits<float>::infinity());
+    hn::StoreU(hn::IfThenElse(clear, hn::Mul(grown, hn::Set(d, 1 / turn_squared)), none), d, variance + i);
+  });
+}
+
+void variance_8(const FringeSamples<std::uint8_t>& f, const float* mean, const float* c, const float* s,
+                std::size_t count, float* variance) {
+  variance_all(f, mean, c, s, count, variance);
+}
+void variance_16(const FringeSamples<std::uint16_t>& f, const float* mean, const float* c, const float* s,
+                 std::size_t count, float* variance) {
+  variance_all(f, mean, c, s, count, variance);
+}
+
 void turns_all(const float* c, const float* s, std::size_t count, float* turns) {
   for_all(count, [&](auto d, std::size_t i) HWY_ATTR {
     hn::StoreU(turns_at(d, hn::LoadU(d, c + i), hn::LoadU(d, s + i)), d, turns + i);
@@ -155,6 +197,8 @@ namespace laterna {
 
 HWY_EXPORT(fit_fringe_8);
 HWY_EXPORT(fit_fringe_16);
+HWY_EXPORT(variance_8);
+HWY_EXPORT(variance_16);
 HWY_EXPORT(turns_all);
 HWY_EXPORT(choose_by_phase);
 HWY_EXPORT(choose_by_sample);
@@ -166,6 +210,14 @@ void fit_fringe(const std::uint8_t* const* pictures, int steps, const float* cos
 void fit_fringe(const std::uint16_t* const* pictures, int steps, const float* cosines, const float* sines,
                 std::size_t count, const FringeArrays& out) {
   HWY_DYNAMIC_DISPATCH(fit_fringe_16)(pictures, steps, cosines, sines, count, out);
+}
+void fringe_variance(const FringeSamples<std::uint8_t>& samples, const float* mean, const float* c,
+                     const float* s, std::size_t count, float* variance) {
+  HWY_DYNAMIC_DISPATCH(variance_8)(samples, mean, c, s, count, variance);
+}
+void fringe_variance(const FringeSamples<std::uint16_t>& samples, const float* mean, const float* c,
+                     const float* s, std::size_t count, float* variance) {
+  HWY_DYNAMIC_DISPATCH(variance_16)(samples, mean, c, s, count, variance);
 }
 void turns_of(const float* c, const float* s, std::size_t count, float* turns) {
   HWY_DYNAMIC_DISPATCH(turns_all)(c, s, count, turns);

@@ -20,6 +20,26 @@ void fit_fringe(const std::uint8_t* const* pictures, int steps, const float* cos
 void fit_fringe(const std::uint16_t* const* pictures, int steps, const float* cosines, const float* sines,
                 std::size_t count, const FringeArrays& out);
 
+/// What tells how good a fitted fringe is, where every sample has the variance `constant` (DN²) and none
+/// saturates. `cosines` and `sines` hold cos δ_j and sin δ_j.
+template <class T>
+struct FringeSamples {
+  const T* const* pictures;
+  int steps;
+  const float *cosines, *sines;
+  const T *white, *black;  ///< their sum tells the mean where white is below full_scale
+  float full_scale, constant;
+  float min_modulation;          ///< B at least this
+  float max_variance, max_chi2;  ///< of φ in rad², without the misfit; per degree of freedom
+};
+
+/// variance = 2·constant/(steps·B²)/(2π)² of φ/2π, times χ² per degree of freedom where that is above
+/// max_chi2 (fringe_fit.h); infinite where the modulation is too small.
+void fringe_variance(const FringeSamples<std::uint8_t>& samples, const float* mean, const float* c,
+                     const float* s, std::size_t count, float* variance);
+void fringe_variance(const FringeSamples<std::uint16_t>& samples, const float* mean, const float* c,
+                     const float* s, std::size_t count, float* variance);
+
 /// atan2(s, c)/2π in [0, 1); 0 for (0, 0).
 void turns_of(const float* c, const float* s, std::size_t count, float* turns);
 

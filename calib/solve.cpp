@@ -1,7 +1,10 @@
 #include "calib/solve.h"
 
+#include "calib/camera_uncertainty.h"
 #include "calib/candidates.h"
 #include "calib/covariance.h"
+#include "calib/lens_left_out.h"
+#include "calib/residual_structure.h"
 #include "calib/verify.h"
 #include "sim/error.h"
 
@@ -15,7 +18,9 @@ namespace laterna {
 
 namespace {
 
-constexpr double rank_deficient = 1e-13;  // last over first scaled singular value
+constexpr double rank_deficient = 1e-13;      // last over first scaled singular value
+constexpr double converged_to_sigmas = 1e-6;  // refine() stops there
+constexpr double lens_is_there = 28.5;        // χ² with four degrees of freedom is above it once in 10⁵
 
 SolveResult refused(SolveResult& result, std::string reason) {
   result.status = Status::refused;
@@ -79,7 +84,15 @@ bool predict(SolveResult& result, const std::vector<glm::dvec3>& world_points) {
   result.clusters_suffice = result.clusters >= 3 * std::size_t(p) && !result.covariance_clustered.empty();
   const bool use_clustered = result.clusters_suffice || clustered > independent;
   result.covariance = use_clustered ? result.covariance_clustered : result.covariance_independent;
-  result.predicted_volume_rms_px = use_clustered ? clustered : independent;
+  // Residuals near rounding say nothing of where the refinement stopped.
+  result.predicted_volume_rms_px =
+      std::max(use_clustered ? clustered : independent, converged_to_sigmas * independent);
+  if (!result.covariance_camera.empty()) {
+    result.predicted_volume_rms_camera_px = prediction(result.covariance_camera);
+    for (std::size_t i = 0; i < result.covariance.size(); ++i)
+      result.covariance[i] += result.covariance_camera[i];
+    result.predicted_volume_rms_px = prediction(result.covariance);
+  }
   result.predicted_volume_rms_independent_px = independent;
   for (int i = 0; i < p; ++i) result.sigma.push_back(std::sqrt(std::max(0.0, result.covariance[i * p + i])));
   return volume.size() == std::size_t(16 * 12 * 12);
@@ -94,9 +107,13 @@ std::vector<std::string> weaknesses(const SolveResult& r, const Correspondences&
       fmt::format("{}; the relief is {:.2g} % of the throw", r.weakest_direction, 100 * r.relief_over_throw);
   if (!maps_its_volume) w.push_back("the estimated lens maps no ray to parts of the projector's image");
   if (!(r.predicted_volume_rms_px <= options.tolerance_px)) {
+    const std::string from_camera = r.covariance_camera.empty()
+                                        ? std::string()
+                                        : fmt::format("{:.3g} px of it from the camera's uncertainty; ",
+                                                      r.predicted_volume_rms_camera_px);
     w.push_back(
-        fmt::format("the predicted volume error of {:.3g} px is above the tolerance of {:.3g} px ({})",
-                    r.predicted_volume_rms_px, options.tolerance_px, trade));
+        fmt::format("the predicted volume error of {:.3g} px is above the tolerance of {:.3g} px ({}{})",
+                    r.predicted_volume_rms_px, options.tolerance_px, from_camera, trade));
   }
   const auto& k = r.estimate.intrinsics;
   const double focal_share = std::max(r.sigma[0] / k.fx, r.sigma[1] / k.fy);
@@ -106,7 +123,8 @@ std::vector<std::string> weaknesses(const SolveResult& r, const Correspondences&
         100 * focal_share, trade));
   }
   const double spare = std::max(1.0, 2 * n - p);
-  if (r.residual_scale > 2 * std::sqrt(1 + 5 * std::sqrt(2 / spare))) {
+  const double explained = std::sqrt(1 + 5 * std::sqrt(2 / spare) + r.expected_camera_chi2 / spare);
+  if (r.residual_scale > 2 * explained) {
     w.push_back(
         fmt::format("the residual rms is {:.2g} times what the sigmas explain: lens distortion, wrong "
                     "mesh or outliers",
@@ -124,6 +142,44 @@ std::vector<std::string> weaknesses(const SolveResult& r, const Correspondences&
                     r.clusters, 3 * r.parameter_names.size()));
   }
   return w;
+}
+
+// Whether a pinhole's residuals follow a lens, in a sentence; empty where they do not, or where it would move
+// the volume by no more than twice what is predicted anyway.
+std::string lens_weakness(const SolveResult& r, const PointTable& points, const ProjectorState& state,
+                          const WorldNormalisation& normalisation, const Correspondences& c,
+                          const SolveOptions& options) {
+  if (options.lens_model != "LENSMODEL_PINHOLE" || !r.covariance_camera.empty()) return "";
+  const auto left = lens_left_out(points, state, options.loss, normalisation, r.estimate.intrinsics.size);
+  if (!left || left->wald < lens_is_there) return "";
+  const auto volume = image_grid(r.estimate, volume_depths(depths_of(r.estimate, c.world_points)));
+  double sum = 0, count = 0;
+  for (const glm::dvec2& d : error_vectors(r.estimate, left->device, volume))
+    if (std::isfinite(d.x)) sum += glm::dot(d, d), ++count;
+  const double moved = std::sqrt(sum / std::max(1.0, count));
+  if (moved <= 2 * r.predicted_volume_rms_px) return "";
+  return fmt::format(
+      "the residuals follow what a pinhole has not: k1 = {:.2g}, k2, p1 and p2 would move the volume by "
+      "{:.2g} "
+      "px, where {:.2g} px are predicted (a lens that distorts, a wrong mesh or camera)",
+      left->device.lens.parameters[0], moved, r.predicted_volume_rms_px);
+}
+
+// Whether neighbouring blocks' residuals agree by more than chance, than what is predicted, and than a
+// twentieth of the tolerance: the volume error of a wrong mesh or camera was five to ten times what
+// neighbours share in every case that was tried, so that what stays below that is no more than half of the
+// tolerance. In a sentence, else empty.
+std::string structure_weakness(const SolveResult& r, const PointTable& points, const LensGradient& lens,
+                               const ProjectorState& state, double tolerance_px) {
+  constexpr double by_chance = 5;
+  if (!r.covariance_camera.empty()) return "";
+  const auto found = residual_structure(points, lens, state);
+  if (!found || found->moran_z < by_chance) return "";
+  if (found->smooth_rms_px <= std::max(r.predicted_volume_rms_px, tolerance_px / 20)) return "";
+  return fmt::format(
+      "neighbouring residuals agree ({:.2g} px of them, {:.0f} standard deviations from chance) where the "
+      "predicted error is {:.2g} px: a wrong mesh, camera or lens",
+      found->smooth_rms_px, found->moran_z, r.predicted_volume_rms_px);
 }
 
 }  // namespace
@@ -177,14 +233,29 @@ SolveResult solve(const Correspondences& c, glm::ivec2 size, const SolveOptions&
   result.covariance_independent = world_covariance(*independent, pose, normalisation);
   const auto clustered = clustered_covariance(points, lens, fit.state, options.loss, fit.factor);
   if (clustered) result.covariance_clustered = world_covariance(*clustered, pose, normalisation);
+  if (!c.cameras.empty()) {
+    const CameraPart part = camera_part(c, normalisation, lens, fit.state, options.loss, fit.factor);
+    result.covariance_camera = world_covariance(part.covariance, pose, normalisation);
+    result.expected_camera_chi2 = part.expected_chi2;
+  }
   result.clusters = points.cluster_count();
   if (!(result.estimate.intrinsics.fx > 0 && result.estimate.intrinsics.fy > 0))
     return refused(result, "the best fit has a negative focal length: the mapping is mirrored");
   const bool maps_its_volume = predict(result, c.world_points);
-  const auto weak = weaknesses(result, c, options, maps_its_volume);
+  auto weak = weaknesses(result, c, options, maps_its_volume);
+  for (const std::string& words : {lens_weakness(result, points, fit.state, normalisation, c, options),
+                                   structure_weakness(result, points, lens, fit.state, options.tolerance_px)})
+    if (!words.empty()) weak.push_back(words);
   result.status = weak.empty() ? Status::ok : Status::weak;
   result.reason = fmt::format("{}", fmt::join(weak, "; "));
   return result;
+}
+
+void add_doubts(SolveResult& result, const std::vector<std::string>& doubts) {
+  if (doubts.empty()) return;
+  if (result.status == Status::ok) result.status = Status::weak;
+  const char* between = result.reason.empty() ? "" : "; ";
+  result.reason += between + fmt::format("{}", fmt::join(doubts, "; "));
 }
 
 }  // namespace laterna

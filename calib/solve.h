@@ -37,8 +37,10 @@ struct SolveResult {
   std::vector<double> covariance_independent;
   /// Delete-one-cluster jackknife (covariance.h). Empty where a cluster cannot be left out.
   std::vector<double> covariance_clustered;
+  /// What the uncertainty of the cameras adds (camera_uncertainty.h). Empty where they are certain.
+  std::vector<double> covariance_camera;
   /// The one that `sigma`, the prediction and the verdict use: clustered; with fewer than 3·p clusters the
-  /// one of the two that predicts the larger volume error.
+  /// one of the two that predicts the larger volume error; plus covariance_camera.
   std::vector<double> covariance;
   std::vector<double> sigma;  ///< standard deviation of each parameter
   bool clusters_suffice = false;
@@ -50,7 +52,9 @@ struct SolveResult {
   double outlier_share = 0;   ///< correspondences with (du² + dv²)/σ² > 13.8, where noise leaves 0.1 %
   double predicted_volume_rms_px = 0;              ///< from `covariance`, over the estimate's own volume grid
   double predicted_volume_rms_independent_px = 0;  ///< from `covariance_independent`
-  double relief_over_throw = 0;                    ///< thickness of the points over their distance
+  double predicted_volume_rms_camera_px = 0;       ///< from `covariance_camera`
+  double expected_camera_chi2 = 0;  ///< what the cameras' uncertainty adds to Σ ((du² + dv²)/σ²)
+  double relief_over_throw = 0;     ///< thickness of the points over their distance
 
   int iterations = 0;
   std::string termination;                     ///< Ceres's own words
@@ -65,9 +69,21 @@ struct SolveResult {
 /// pixels on a line, a mirrored mapping, points behind the projector, a rank-deficient Jacobian, no
 /// convergence. Weak: predicted volume error above the tolerance, residuals over twice what the sigmas
 /// explain, too few clusters, sigma of fx or fy above a tenth of it, more outliers than the loss bears (Huber
-/// 15 %, Cauchy 50 %), or an estimate that cannot map its own volume. The verdict never looks at a truth.
+/// 15 %, Cauchy 50 %), an estimate that cannot map its own volume, or, for a pinhole, residuals that follow a
+/// lens (lens_left_out.h, once in 10⁵ by chance) which would move the volume by more than twice its predicted
+/// error. The verdict never looks at a truth.
+///
+/// The world points are believed. Where their cameras are uncertain, that is carried to first order into
+/// covariance, prediction and verdict, and residuals may be as large as it explains. Where they are wrong and
+/// nothing says so, what the residuals show ends as weak (a mesh that is noisy, coarse, misplaced or scaled,
+/// once the misfit is over twice the sigmas); what they do not show goes into the projector and cannot be
+/// told: whole world and camera moved or scaled together, and any error too small for the sigmas.
 /// Throws InputError where correspondences, size, lens model or start are malformed.
 SolveResult solve(const Correspondences& correspondences, glm::ivec2 projector_size,
                   const SolveOptions& options = {});
+
+/// Adds what else is known to be wrong with the data: `ok` becomes `weak`, refused stays refused, and the
+/// sentences are joined to the reason.
+void add_doubts(SolveResult& result, const std::vector<std::string>& doubts);
 
 }  // namespace laterna

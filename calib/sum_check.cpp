@@ -11,6 +11,18 @@ namespace {
 /// An odd step over the pixels, so that all columns are met.
 std::size_t grid_step(std::size_t pixels) { return std::max<std::size_t>(1, pixels / 4096) | 1; }
 
+/// Where white is at full scale a pair still tells: one picture is at full scale too, the other black. At a
+/// stripe's edge, which is neither, the sum is wrong for no fault of the pictures.
+template <class T>
+bool is_clipped_edge(const ImageStack<T>& stack, const PatternGroup& pair, std::size_t i, double black,
+                     double contrast, double full_scale) {
+  for (int j = 0; j < pair.count; ++j) {
+    const double value = stack.picture(pair.first + j)[i];
+    if (value < full_scale && value - black > 0.1 * contrast) return true;
+  }
+  return false;
+}
+
 /// Calls body(group, rest, white - black) for the lit pixels of a regular grid.
 template <class T, class Body>
 void for_rests(const ImageStack<T>& stack, const std::vector<PatternGroup>& groups,
@@ -22,8 +34,10 @@ void for_rests(const ImageStack<T>& stack, const std::vector<PatternGroup>& grou
     if (!(contrast > min_white_minus_black)) continue;
     for (std::size_t g = 0; g < groups.size(); ++g) {
       const PatternGroup& group = groups[g];
-      // A pair saturates together with white; a fringe does not.
-      if (group.count < 2 || (group.kind == PatternGroup::Kind::fringe && white[i] >= full_scale)) continue;
+      if (group.count < 2) continue;
+      if (white[i] >= full_scale && (group.kind == PatternGroup::Kind::fringe ||
+                                     is_clipped_edge(stack, group, i, black[i], contrast, full_scale)))
+        continue;
       double sum = 0;
       for (int j = 0; j < group.count; ++j) sum += stack.picture(group.first + j)[i];
       body(g, sum - 0.5 * group.count * both, contrast);

@@ -33,6 +33,11 @@ bool read(const Json& json, const Field&, T& value) {
   value = T(name - names.begin());
   return true;
 }
+bool read(const Json& json, const Field&, bool& value) {
+  if (!json.is_boolean()) return false;
+  value = json.get<bool>();
+  return true;
+}
 bool read(const Json& json, const Field& field, double& value) {
   if (!json.is_number()) return false;
   value = json.get<double>();

@@ -119,6 +119,7 @@ std::vector<Line> lines_of(const PatternSequence& sequence) {
     for (int j = 0; j < group.count; ++j) lines.push_back({group.axis, profile(sequence, group, j)});
   for (const int value : {255, 0})
     lines.push_back({0, Values(sequence.projector_size.x, std::uint8_t(value))});
+  if (sequence.parameters.repeat_first) lines.push_back(lines.front());
   return lines;
 }
 
@@ -152,6 +153,7 @@ bool is_coded(PatternKind kind) { return !is_board(kind) && !comes_from_files(ki
 void validate(const PatternSequence& sequence) {
   validate(GraySequence{sequence.projector_size});
   const PatternParameters& p = sequence.parameters;
+  expect(!p.repeat_first || is_coded(p.kind), "repeat_first is given", "it with coded families only");
   if (comes_from_files(p.kind)) return;
   if (is_board(p.kind)) return validate_board(sequence);
   if (p.kind == PatternKind::xor_gray) {
@@ -165,6 +167,9 @@ void validate(const PatternSequence& sequence) {
   }
   const int count = picture_count(sequence);
   expect(count <= most_pictures, fmt::format("{} pictures", count), fmt::format("at most {}", most_pictures));
+  const std::vector<Group> groups = pattern_groups(sequence);
+  expect(!p.repeat_first || (!groups.empty() && groups[0].axis == 0), "repeat_first without columns to tell",
+         "a projector at least 2 px wide");
 }
 
 std::vector<Group> pattern_groups(const PatternSequence& sequence) {
@@ -179,13 +184,19 @@ int picture_count(const PatternSequence& sequence) {
   expect(!comes_from_files(kind), "pictures from files", "a family that is drawn");
   if (is_board(kind)) return 3;
   const std::vector<Group> groups = pattern_groups(sequence);
-  return (groups.empty() ? 0 : groups.back().first + groups.back().count) + 2;
+  return (groups.empty() ? 0 : groups.back().first + groups.back().count) + 2 +
+         sequence.parameters.repeat_first;
+}
+
+int white_picture(const PatternSequence& sequence) {
+  return picture_count(sequence) - 2 - sequence.parameters.repeat_first;
 }
 
 std::string picture_name(const PatternSequence& sequence, int k) {
   check_picture(sequence, k);
-  const int count = picture_count(sequence);
-  if (k >= count - 2) return k == count - 2 ? "white" : "black";
+  const int white = white_picture(sequence);
+  if (k >= white + 2) return picture_name(sequence, 0) + " again";
+  if (k >= white) return k == white ? "white" : "black";
   if (is_board(sequence.parameters.kind)) return "board";
   const std::vector<Group> groups = pattern_groups(sequence);
   const Group& group = *group_of(groups, k);
@@ -198,9 +209,10 @@ std::string picture_name(const PatternSequence& sequence, int k) {
 Image<std::uint8_t> pattern_picture(const PatternSequence& sequence, int k) {
   validate(sequence);
   check_picture(sequence, k);
-  const int count = picture_count(sequence);
+  const int white = white_picture(sequence);
   const glm::ivec2 size = sequence.projector_size;
-  if (k >= count - 2) return {size.x, size.y, value_of(k == count - 2)};
+  if (k >= white + 2) return pattern_picture(sequence, 0);
+  if (k >= white) return {size.x, size.y, value_of(k == white)};
   if (is_board(sequence.parameters.kind)) return board_picture(sequence);
   const std::vector<Group> groups = pattern_groups(sequence);
   const Group& group = *group_of(groups, k);

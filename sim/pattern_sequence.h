@@ -16,6 +16,9 @@
 //   micro_phase      `pitches_px` in a narrow band: the first with `steps` pictures, the others with one
 //                    each. Gupta and Nayar, "Micro phase shifting", CVPR 2012
 //
+// Any of them may show its first picture once more at the end, after black: where rig and scene stood still,
+// both photographs are equal within the noise.
+//
 // A board (chessboard, charuco) is one picture, then white and black (sim/pattern_board.h). A slide and
 // pictures come from files and tell no pixel its place.
 #pragma once
@@ -51,6 +54,7 @@ struct PatternParameters {
   std::vector<double> pitches_px{};  ///< periods; empty: default_pitches_px()
   int xor_stripe_px = 2;             ///< a power of two, 2 to 1024
   int square_px = 64;                ///< side of a board's square, 8 to 4096
+  bool repeat_first = false;         ///< coded families only
   bool operator==(const PatternParameters&) const = default;
 };
 
@@ -82,10 +86,15 @@ void validate(const PatternSequence& sequence);
 /// The groups of a coded sequence in the order of their pictures; empty for the others.
 std::vector<PatternGroup> pattern_groups(const PatternSequence& sequence);
 
-/// With white and black, which are the last two. Throws InputError for a slide and for pictures.
+/// With white and black, which are the last two unless the first picture is repeated after them. Throws
+/// InputError for a slide and for pictures.
 int picture_count(const PatternSequence& sequence);
 
-/// For people: "column bit 9 inverse", "row fringe of 32 px, step 2", "board", "white", "black".
+/// The index of the white picture; black is the next. Throws as picture_count() does.
+int white_picture(const PatternSequence& sequence);
+
+/// For people: "column bit 9 inverse", "row fringe of 32 px, step 2", "board", "white", "black", and
+/// "column bit 9 again" of a repeated picture.
 std::string picture_name(const PatternSequence& sequence, int k);
 
 /// Picture k, 0 to 255 per projector pixel. A fringe shows round(127.5·(1 + cos(2π·x/pitch + 2π·j/steps))),

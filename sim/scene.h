@@ -1,6 +1,7 @@
 // A scene, ready to be rendered: what exists, in SI units and world coordinates (metres).
 #pragma once
 
+#include "sim/belief.h"
 #include "sim/device.h"
 #include "sim/effect_parameters.h"
 #include "sim/effects.h"
@@ -37,6 +38,8 @@ struct Object {
   std::shared_ptr<const Image<glm::vec3>> normal_map{};
   /// Heights, linear, 0 to 1. Empty where effects.displacement_map is.
   std::shared_ptr<const Image<float>> displacement_map{};
+  MeshBelief belief{};                          ///< what a solver is told instead (sim/believed.h)
+  std::shared_ptr<const Mesh> believed_mesh{};  ///< empty where belief.file is
 };
 
 /// A projector: a device that emits.
@@ -60,6 +63,7 @@ struct Camera {
   Optics optics{};
   ColourFilter colour_filter = ColourFilter::mono;  ///< with colour
   double veiling_glare = 0;  ///< share of the light that the lens scatters over the image
+  CameraBelief belief{};     ///< what a solver is told instead (sim/believed.h)
 };
 
 /// A picture of the user's that a projector shows.
@@ -90,6 +94,7 @@ struct Scene {
   glm::dvec3 pattern_colour{1, 1, 1};   ///< share of each primary's light that patterns are shown with
   std::vector<ColourMixing> mixings{};  ///< of the pairs that have one
   Timing timing{};
+  bool believe_truth = false;  ///< whether a solver is told the truth, whatever the beliefs
 };
 
 }  // namespace laterna

@@ -1,5 +1,6 @@
 #include "sim/scene_build.h"
 
+#include "sim/believed.h"
 #include "sim/device_spec.h"
 #include "sim/effect_checks.h"
 #include "sim/error.h"
@@ -183,6 +184,15 @@ std::shared_ptr<const Image<float>> print_of(const std::string& board) {
   return std::make_shared<const Image<float>>(std::move(print));
 }
 
+void add_believed_mesh(Object& object, const std::filesystem::path& folder) {
+  if (object.belief.file.empty()) return;
+  about("believed", [&] {
+    const Mesh mesh = read_mesh(folder / object.belief.file);
+    expect_near(mesh, object.world_from_object);
+    object.believed_mesh = std::make_shared<const Mesh>(mesh);
+  });
+}
+
 Object build_object(const MeshSpec& spec, const std::filesystem::path& folder, Maps& maps) {
   Object object{.name = spec.name,
                 .mesh = {},
@@ -192,11 +202,14 @@ Object build_object(const MeshSpec& spec, const std::filesystem::path& folder, M
                 .effects = spec.effects,
                 .seed = spec.seed,
                 .normal_map = {},
-                .displacement_map = {}};
+                .displacement_map = {},
+                .belief = spec.believed,
+                .believed_mesh = {}};
   object.mesh = build_mesh(spec, folder);
   if (!spec.board.empty()) object.albedo_map = print_of(spec.board);
   validate(object.mesh, spec.file.empty() ? spec.shape + spec.board : spec.file);
   expect_near(object.mesh, object.world_from_object);
+  add_believed_mesh(object, folder);
   add_normal_map(object, folder);
   add_displacement_map(object, folder);
   if (spec.albedo_map.empty()) return object;
@@ -333,7 +346,8 @@ Scene build_scene(const SceneSpec& spec, const std::filesystem::path& folder) {
               .pictures = {},
               .pattern_colour = spec.patterns.colour,
               .mixings = {},
-              .timing = spec.timing};
+              .timing = spec.timing,
+              .believe_truth = spec.believe_truth};
   const SceneSpec named = with_names(spec);
   Maps maps;
   for (const MeshSpec& mesh : named.meshes) {
@@ -352,7 +366,8 @@ Scene build_scene(const SceneSpec& spec, const std::filesystem::path& folder) {
     check(c);
     scene.cameras.push_back({device_of(c.device, folder, what), c.sensor, c.vignetting,
                              about(what, [&] { return vignetting_map(c.vignetting, folder); }),
-                             c.samples_per_pixel, c.optics, c.colour_filter, c.veiling_glare});
+                             c.samples_per_pixel, c.optics, c.colour_filter, c.veiling_glare, c.believed});
+    about(what + ": believed", [&] { believed_device(scene.cameras.back()); });
   }
   switch_off_lenses(scene);
   if (spec.effects.slide)

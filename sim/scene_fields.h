@@ -379,6 +379,46 @@ void describe(Visitor& visit, Sensor& sensor) {
 }
 
 template <class Visitor>
+void describe(Visitor& visit, MeshBelief& belief) {
+  visit(
+      Field{.key = "file",
+            .sentence = "Another mesh file, in the mesh's `unit`, axes and placement, without displacement; "
+                        "relative to the scene file. Absent: the true mesh."},
+      belief.file);
+  visit(Field{.key = "keep",
+              .sentence = "Share of its triangles that is left, as far as its topology allows.",
+              .low = 0,
+              .high = 1,
+              .low_excluded = true},
+        belief.keep);
+  visit(Field{.key = "noise_sigma_m",
+              .unit = "m",
+              .sentence = "Standard deviation by which each vertex is moved along its normal.",
+              .low = 0,
+              .high = farthest_m},
+        belief.noise_sigma_m);
+  visit(Field{.key = "seed", .sentence = "Draws that noise.", .low = 0}, belief.seed);
+  visit(Field{.key = "scale",
+              .sentence = "Enlarges it about its own origin, where the true mesh has it,",
+              .low = 0,
+              .high = farthest_m,
+              .low_excluded = true},
+        belief.scale);
+  visit(Field{.key = "rotate_deg",
+              .unit = "deg",
+              .sentence = "turns it there about the world's x axis, then y, then z,",
+              .low = -36000,
+              .high = 36000},
+        belief.rotate_deg);
+  visit(Field{.key = "translate",
+              .unit = "m",
+              .sentence = "and moves it.",
+              .low = -farthest_m,
+              .high = farthest_m},
+        belief.translate);
+}
+
+template <class Visitor>
 void describe(Visitor& visit, MeshSpec& mesh) {
   visit(Field{.key = "name",
               .sentence = "What messages and pictures call it. Absent: the file's or the shape's name."},
@@ -456,6 +496,11 @@ void describe(Visitor& visit, MeshSpec& mesh) {
               .sentence = "What the integers of an 8- or 16-bit picture mean; float pictures are linear."},
         mesh.albedo_map_encoding);
   describe(visit, mesh.effects);
+  visit(
+      Field{.key = "believed",
+            .sentence = "What the solver is told of this mesh, where that is not the truth: `roundtrip` and "
+                        "`calibrate` take their points from it."},
+      mesh.believed);
 }
 
 template <class Visitor>
@@ -584,6 +629,44 @@ void describe(Visitor& visit, ProjectorSpec& projector) {
 }
 
 template <class Visitor>
+void describe(Visitor& visit, CameraBelief& belief) {
+  visit(
+      Field{.key = "rotate_deg",
+            .unit = "deg",
+            .sentence = "The believed camera's frame is the true one's turned about the camera's centre and "
+                        "its own x axis, then y, then z,",
+            .low = -36000,
+            .high = 36000},
+      belief.rotate_deg);
+  visit(Field{.key = "translate",
+              .unit = "m",
+              .sentence = "then moved: x_believed = Rz·Ry·Rx·x_device + translate.",
+              .low = -farthest_m,
+              .high = farthest_m},
+        belief.translate);
+  visit(Field{.key = "focal_px", .unit = "px", .sentence = "Added to fx and fy.", .low = -1e8, .high = 1e8},
+        belief.focal_px);
+  visit(Field{.key = "center_px", .unit = "px", .sentence = "Added to cx and cy.", .low = -1e8, .high = 1e8},
+        belief.center_px);
+  visit(Field{.key = "sigma_rotate_deg",
+              .unit = "deg",
+              .sentence = "Standard deviations of these errors, as the solver is told them: of the rotation,",
+              .low = 0,
+              .high = 180},
+        belief.sigma_rotate_deg);
+  visit(Field{.key = "sigma_translate",
+              .unit = "m",
+              .sentence = "of the translation,",
+              .low = 0,
+              .high = farthest_m},
+        belief.sigma_translate);
+  visit(Field{.key = "sigma_focal_px", .unit = "px", .sentence = "of fx and fy,", .low = 0, .high = 1e8},
+        belief.sigma_focal_px);
+  visit(Field{.key = "sigma_center_px", .unit = "px", .sentence = "of cx and cy.", .low = 0, .high = 1e8},
+        belief.sigma_center_px);
+}
+
+template <class Visitor>
 void describe(Visitor& visit, CameraSpec& camera) {
   describe(visit, camera.device);
   visit(Field{.key = "sensor", .sentence = "How light becomes digital numbers."}, camera.sensor);
@@ -606,6 +689,10 @@ void describe(Visitor& visit, CameraSpec& camera) {
               .low = 0,
               .high = 1},
         camera.veiling_glare);
+  visit(Field{.key = "believed",
+              .sentence = "What the solver is told of this camera, where that is not the truth, and how "
+                          "uncertain it is told it is; each sigma is independent of the others."},
+        camera.believed);
 }
 
 template <class Visitor>
@@ -641,6 +728,10 @@ void describe(Visitor& visit, PatternParameters& patterns) {
       Field{
           .key = "square_px", .unit = "px", .sentence = "Side of a board's squares.", .low = 8, .high = 4096},
       patterns.square_px);
+  visit(Field{.key = "repeat_first",
+              .sentence = "Whether the first picture is shown once more at the end, so that decoding can see "
+                          "whether anything moved meanwhile."},
+        patterns.repeat_first);
 }
 
 template <class Visitor>
@@ -773,6 +864,10 @@ void describe(Visitor& visit, SceneSpec& scene) {
               .low = 0,
               .high = 1e9},
         scene.ambient_lx);
+  visit(Field{.key = "believe_truth",
+              .sentence = "The switch over every `believed`: true tells the solver the true meshes and "
+                          "cameras, and that it knows them exactly."},
+        scene.believe_truth);
   visit(Field{.key = "patterns", .sentence = "What the projectors show."}, scene.patterns);
   visit(
       Field{.key = "effects", .sentence = "One switch for each effect; what it needs stands with its noun."},

@@ -65,8 +65,8 @@ void add_sections(Sections& sections, const std::string& heading, const std::str
 
 std::string scene_reference_markdown() {
   Sections sections;
-  add_sections<SceneSpec>(sections, "Top level", "`name` and `ambient_lx` stand before the first table.",
-                          true);
+  add_sections<SceneSpec>(sections, "Top level",
+                          "`name`, `ambient_lx` and `believe_truth` stand before the first table.", true);
   std::string page =
       "# The scene file\n"
       "<!-- Made by `laterna info --scene-reference > data/scene-reference.md`; edit sim/scene_fields.h. "

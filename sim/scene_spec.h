@@ -41,6 +41,7 @@ struct MeshSpec {
   std::string albedo_map{};
   Encoding albedo_map_encoding = Encoding::srgb;
   MeshEffects effects{};
+  MeshBelief believed{};
   bool operator==(const MeshSpec&) const = default;
 };
 
@@ -80,6 +81,7 @@ struct CameraSpec {
   Optics optics{};
   ColourFilter colour_filter = Camera{}.colour_filter;
   double veiling_glare = Camera{}.veiling_glare;
+  CameraBelief believed{};
   bool operator==(const CameraSpec&) const = default;
 };
 
@@ -102,6 +104,7 @@ struct ColourSpec {
 struct SceneSpec {
   std::string name{};
   double ambient_lx = 0;
+  bool believe_truth = false;
   PatternsSpec patterns{};
   Effects effects{};
   InterReflection inter_reflection{};

@@ -53,6 +53,9 @@ SceneSpec write_self_contained(const SceneSpec& spec, const Scene& scene, const 
     if (!mesh.file.empty())
       mesh.file =
           put(target, "meshes", fmt::format("mesh{}.ply", i + 1), ply_bytes(scene.objects.at(i).mesh));
+    if (!mesh.believed.file.empty())
+      mesh.believed.file = put(target, "meshes", fmt::format("believed{}.ply", i + 1),
+                               ply_bytes(*scene.objects.at(i).believed_mesh));
     copy_picture(mesh.albedo_map, fmt::format("map{}", i + 1), folder, target);
     copy_picture(mesh.effects.normal_map, fmt::format("normals{}", i + 1), folder, target);
     copy_picture(mesh.effects.displacement_map, fmt::format("heights{}", i + 1), folder, target);

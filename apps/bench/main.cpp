@@ -1,9 +1,12 @@
 // laterna-bench: what the hot stages cost, beside what the machine can do, measured in one run.
+#include "apps/bench/board_ratio.h"
 #include "apps/bench/decode_ratio.h"
 #include "apps/bench/picture_ratio.h"
 #include "apps/bench/replay_ratio.h"
 #include "apps/bench/scaling.h"
+#include "apps/bench/solve_ratio.h"
 #include "apps/bench/stage_ratio.h"
+#include "apps/lab/family_table.h"
 #include "sim/error.h"
 #include "sim/instruction_sets.h"
 #include "sim/parallel.h"
@@ -23,8 +26,9 @@ using namespace laterna;
 namespace {
 
 struct Options {
-  bool json = false;
+  bool json = false, families = false;
   int repeats = 9, threads = 2, triangles = 100000;
+  int boards = 0;
   std::string scaling{};
   std::string isa;
 };
@@ -45,6 +49,9 @@ nlohmann::ordered_json measure(const Options& options) {
   const StackTimes stack = time_stack(scene, std::max(1, options.repeats / 3));
   const PictureTimes pictures = time_pictures(std::max(1, options.repeats / 3));
   const DecodeTimes decode = time_decode(options.repeats);
+  const SolveTimes solve = time_solve(std::max(1, options.repeats / 3));
+  const BoardTimes small = time_boards(5, std::max(1, options.repeats / 3));
+  const BoardTimes large = time_boards(18, std::max(1, options.repeats / 3));
   return {{"visibility_over_embree", visibility.ratio},
           {"replay_bilinear_over_fill", replay.bilinear_over_fill},
           {"replay_binary_over_fill", replay.binary_over_fill},
@@ -60,6 +67,20 @@ nlohmann::ordered_json measure(const Options& options) {
           {"decode_gray_over_read", decode.gray_over_read},
           {"opencv_over_decode_gray", decode.opencv_over_gray},
           {"atan2_over_decode_phase", decode.atan2_over_phase},
+          {"atan2f_over_decode_phase", decode.atan2f_over_phase},
+          {"atan2_over_fit_with_sigma", decode.atan2_over_fit},
+          {"decode_phase_ns_per_pixel", decode.phase_ns},
+          {"solve_million_passes", solve.passes},
+          {"solve_million_over_pass", solve.over_pass},
+          {"solve_million_seconds", solve.seconds},
+          {"opencv_over_joint_small", small.opencv_over_joint},
+          {"mrcal_over_joint_small", small.mrcal_over_joint},
+          {"joint_small_seconds", small.joint_seconds},
+          {"joint_small_corners", small.corners},
+          {"opencv_over_joint_large", large.opencv_over_joint},
+          {"mrcal_over_joint_large", large.mrcal_over_joint},
+          {"joint_large_seconds", large.joint_seconds},
+          {"joint_large_corners", large.corners},
           {"threads", thread_count()},
           {"isa", instruction_set()},
           {"fill_seconds", replay.fill},
@@ -93,11 +114,27 @@ int main(int argc, char** argv) {
   app.add_option("--scaling", options.scaling,
                  "instead, time captures by patterns, samples, bounces and paths: a CSV file, and a plot "
                  "(.svg) beside it");
+  app.add_flag("--families", options.families,
+               "instead, print what goes wrong with each pattern family under each fault, and who notices");
+  app.add_option("--boards", options.boards,
+                 "instead, calibrate so many simulated board captures by every method: error over the "
+                 "Cramer-Rao bound, seconds, failures")
+      ->check(CLI::Range(1, 10000));
   CLI11_PARSE(app, argc, argv);
   nlohmann::ordered_json result;
   try {
     if (!options.scaling.empty()) {
       write_scaling(options);
+      return 0;
+    }
+    if (options.families) {
+      set_thread_count(options.threads);
+      fmt::print("{}", family_table_text(family_table(table_families(), all_faults())));
+      return 0;
+    }
+    if (options.boards > 0) {
+      set_thread_count(options.threads);
+      fmt::print("{}", method_scores_text(score_board_methods(options.boards)));
       return 0;
     }
     result = measure(options);

@@ -7,7 +7,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <map>
+#include <numeric>
 #include <set>
 
 namespace laterna {
@@ -85,17 +85,32 @@ Placement read_placement(const fs::path& folder, const BoardFolderOptions& optio
     const CapturedStack pictures = read_pictures(folder, sequence);
     if (placement.sequences.empty()) placement.picture = print_picture(pictures);
     placement.sequences.push_back(decode_sequence(folder, sequence, pictures, options.decode));
+    const auto seen = [&](const std::string& what) {
+      return fmt::format("{}, \"{}\": {}", folder.string(), sequence.projector, what);
+    };
     for (const std::string& flag : placement.sequences.back().report.flags)
-      result.warnings.push_back(fmt::format("{}, \"{}\": {}", folder.string(), sequence.projector, flag));
+      result.warnings.push_back(seen(flag));
+    for (const std::string& doubt : placement.sequences.back().report.doubts)
+      result.doubts.push_back(seen(doubt));
   }
   return placement;
 }
 
-void sight(const fs::path& folder, const Placement& placement, int board, const BoardFolderOptions& options,
-           BoardFolders& result) {
+// Boards with markers first: they are not mistaken for others, but others are for them.
+std::vector<int> in_order(const std::vector<PrintedBoard>& boards) {
+  std::vector<int> order(boards.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_partition(order.begin(), order.end(),
+                        [&](int k) { return boards[std::size_t(k)].kind == BoardKind::charuco; });
+  return order;
+}
+
+void sight(const fs::path& folder, const Placement& placement, PrintPicture& left, int board,
+           const BoardFolderOptions& options, BoardFolders& result) {
   const PrintedBoard& printed = options.boards[std::size_t(board)];
-  const std::vector<FoundPoint> found = find_board(placement.picture, printed);
+  const std::vector<FoundPoint> found = find_board(left, printed);
   if (found.empty()) return;
+  cover_board(left, found);
   BoardCapture& capture = result.capture;
   const int pose = capture.pose_count();
   capture.pose_labels.push_back(pose);
@@ -139,8 +154,8 @@ BoardFolders read_board_folders(const std::vector<fs::path>& folders, const Boar
     for (const DecodedSequence& s : placement.sequences)
       device_index(result.capture, s.sequence.projector, s.sequence.projector_size, folder);
     const std::size_t before = result.placements.size();
-    for (int board = 0; board < int(options.boards.size()); ++board)
-      sight(folder, placement, board, options, result);
+    PrintPicture left = placement.picture;
+    for (const int board : in_order(options.boards)) sight(folder, placement, left, board, options, result);
     if (result.placements.size() == before)
       result.warnings.push_back(folder.string() + ": no board was found");
   }

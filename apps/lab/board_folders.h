@@ -38,6 +38,7 @@ struct BoardFolders {
   BoardCapture capture;  ///< metres; device 0 is the camera; pose labels count placements from 0
   std::vector<BoardPlacement> placements;
   std::vector<std::string> warnings;  ///< no board found; what looks wrong in the pictures
+  std::vector<std::string> doubts;    ///< of them, those that make the verdict at best weak (decode_report.h)
 };
 
 /// The folders themselves, each with its manifest or pictures; in place of one that has neither, its

@@ -276,7 +276,10 @@ std::string placements_text(const BoardFolders& folders) {
 Json methods_json(const std::vector<MethodResult>& results) {
   Json methods = Json::array();
   for (const MethodResult& r : results) {
-    Json json = {{"method", r.name}, {"failure", r.failure}, {"seconds", number(r.seconds)}};
+    Json json = {{"method", r.name},
+                 {"failure", r.failure},
+                 {"seconds", number(r.seconds)},
+                 {"over_bound", number(r.over_bound)}};
     if (r.rig) {
       Json folds = Json::array();
       for (const HeldOutPose& fold : r.held_out.folds) folds.push_back(number(fold.rms_px));
@@ -292,17 +295,21 @@ Json methods_json(const std::vector<MethodResult>& results) {
 }
 
 std::string methods_text(const std::vector<MethodResult>& results) {
-  std::string text = fmt::format("{:<16} {:>14} {:>9} {:>6} {:>9}  {}\n", "method", "fit px", "held-out",
-                                 "failed", "seconds", "projector fx, fy, cx, cy");
+  std::string text = fmt::format("{:<16} {:>14} {:>9} {:>10} {:>8} {:>9}  {}\n", "method", "fit px",
+                                 "held-out", "over bound", "failures", "seconds", "projector fx, fy, cx, cy");
   for (const MethodResult& r : results) {
     if (!r.rig) {
-      text += fmt::format("{:<16} {}\n", r.name, r.failure);
+      text += fmt::format("{:<16} {:>14} {:>9} {:>10} {:>8} {:>9}  {}\n", r.name, "-", "-", "-", "all", "-",
+                          r.failure);
       continue;
     }
     const std::vector<double>& k = r.rig->devices.back().parameters;
-    text += fmt::format("{:<16} {:>14} {:>9.4f} {:>6} {:>9.4f}  {:.1f}, {:.1f}, {:.1f}, {:.1f}\n", r.name,
-                        fmt::format("{:.3f}", fmt::join(r.fit_rms_px, " ")), r.held_out.rms_px,
-                        r.held_out.failed.size(), r.seconds, k[0], k[1], k[2], k[3]);
+    const std::string failures =
+        fmt::format("{}/{}", r.held_out.failed.size(), r.held_out.failed.size() + r.held_out.folds.size());
+    text += fmt::format("{:<16} {:>14} {:>9.4f} {:>10} {:>8} {:>9.4f}  {:.1f}, {:.1f}, {:.1f}, {:.1f}\n",
+                        r.name, fmt::format("{:.3f}", fmt::join(r.fit_rms_px, " ")), r.held_out.rms_px,
+                        r.over_bound ? fmt::format("{:.2f}", *r.over_bound) : "-", failures, r.seconds, k[0],
+                        k[1], k[2], k[3]);
   }
   return text;
 }

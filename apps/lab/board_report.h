@@ -31,8 +31,10 @@ void add_placements(nlohmann::json& json, const BoardFolders& folders);
 /// The same as a table; empty without placements and warnings.
 std::string placements_text(const BoardFolders& folders);
 
-/// [{"method", "failure", "fit_rms_px", "held_out_px": {"rms", "folds", "failed"}, "seconds", "projector":
-/// {"fx", "fy", "cx", "cy"}}]: every method on the same sightings.
+/// [{"method", "failure", "fit_rms_px", "held_out_px": {"rms", "folds", "failed"}, "seconds", "over_bound",
+/// "projector":
+/// {"fx", "fy", "cx", "cy"}}]: every method on the same sightings. over_bound is null where no truth is
+/// known.
 nlohmann::json methods_json(const std::vector<MethodResult>& results);
 
 /// The same as a table.

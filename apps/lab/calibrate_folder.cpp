@@ -1,8 +1,6 @@
 #include "apps/lab/calibrate_folder.h"
 
 #include "apps/lab/trial.h"
-#include "render/effects/displacement.h"
-#include "render/ray_scene.h"
 #include "sim/error.h"
 
 #include <fmt/format.h>
@@ -38,19 +36,17 @@ std::string lens_model(const Scene& scene, const std::string& projector) {
 struct Collected {
   glm::ivec2 size{0, 0};
   Correspondences correspondences;
-  std::vector<std::string> flags;
+  std::vector<std::string> flags, doubts;
 };
 
 }  // namespace
 
 std::vector<FolderEstimate> calibrate_folder(const std::filesystem::path& folder,
-                                             const CaptureManifest& manifest, const Scene& given,
+                                             const CaptureManifest& manifest, const Scene& scene,
                                              const SolveOptions& solve_options,
                                              const DecodeOptions& decode_options, const Progress& progress) {
-  std::optional<Scene> storage;
-  const Scene& scene = displaced(given, storage);
-  const RayScene rays(scene);
-  std::map<int, PixelArray<glm::dvec3>> points;
+  const ToldScene told(scene);
+  std::map<int, ToldPoints> points;
   std::map<std::string, Collected> projectors;
   for (const CaptureSequence& sequence : manifest.sequences) {
     if (progress)
@@ -59,13 +55,15 @@ std::vector<FolderEstimate> calibrate_folder(const std::filesystem::path& folder
     const DecodedSequence decoded = decode_sequence(folder, sequence, decode_options);
     const DecodedMap& map = decoded.map;
     const int camera = camera_index(scene, sequence, map);
-    if (!points.contains(camera)) {
-      points.emplace(camera, points_world(trace_surface(rays, scene, scene.cameras[camera]), scene));
-    }
+    if (!points.contains(camera)) points.emplace(camera, told.trace(camera));
     Collected& collected = projectors[sequence.projector];
+    collected.correspondences.cameras = told_cameras(scene);
     collected.size = sequence.projector_size;
-    for (const std::string& flag : decoded.report.flags)
-      collected.flags.push_back(fmt::format("seen by \"{}\": {}", sequence.camera, flag));
+    const auto seen_by = [&](const std::string& words) {
+      return fmt::format("seen by \"{}\": {}", sequence.camera, words);
+    };
+    for (const std::string& flag : decoded.report.flags) collected.flags.push_back(seen_by(flag));
+    for (const std::string& doubt : decoded.report.doubts) collected.doubts.push_back(seen_by(doubt));
     append_correspondences(map, points.at(camera), camera, TrialOptions{}.block_px,
                            collected.correspondences);
   }
@@ -82,6 +80,7 @@ std::vector<FolderEstimate> calibrate_folder(const std::filesystem::path& folder
     } else {
       estimate.solve = solve(collected.correspondences, collected.size, options);
     }
+    add_doubts(estimate.solve, collected.doubts);
     estimate.solve.estimate.name = name;
     estimates.push_back(std::move(estimate));
   }

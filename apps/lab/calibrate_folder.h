@@ -21,9 +21,10 @@ struct FolderEstimate {
 };
 
 /// Decodes the sequences of a manifest, takes the world point of each camera pixel from the scene's meshes
-/// and cameras (believed to be right), and solves for each projector named in the manifest. Of the scene's
-/// projectors only the lens model is used, never figures or placement. Throws InputError where a sequence
-/// names a camera that the scene has not, or whose pictures have another size.
+/// and cameras as they are believed (told_points.h; never from the true ones where `believed` says
+/// otherwise), carries the cameras' uncertainty through, and solves for each projector named in the manifest.
+/// Of the scene's projectors only the lens model is used, never figures or placement. Throws InputError where
+/// a sequence names a camera that the scene has not, or whose pictures have another size.
 std::vector<FolderEstimate> calibrate_folder(const std::filesystem::path& folder,
                                              const CaptureManifest& manifest, const Scene& scene,
                                              const SolveOptions& solve_options,

@@ -33,15 +33,15 @@ std::string stem_of(const Scene& scene, const View& view) {
 }
 
 // The pictures, small, for people to leaf through.
-nlohmann::json write_frames(const Scene& scene, const View& view, const CapturedStack* pictures,
-                            int full_scale, const std::filesystem::path& root) {
+nlohmann::json write_frames(const Scene& scene, const View& view, const PatternSequence& sequence,
+                            const CapturedStack* pictures, int full_scale,
+                            const std::filesystem::path& root) {
   nlohmann::json frames = nlohmann::json::array();
   if (!pictures) return frames;
   const std::string folder = "frames/" + stem_of(scene, view);
   std::filesystem::create_directories(root / folder);
   const std::vector<Image<std::uint8_t>> small = thumbnails(*pictures, full_scale);
-  const std::vector<std::string> labels =
-      frame_labels(pattern_sequence(scene, scene.projectors[view.projector]), int(small.size()));
+  const std::vector<std::string> labels = frame_labels(sequence, int(small.size()));
   for (std::size_t k = 0; k < small.size(); ++k) {
     frames.push_back({{"label", labels[k]}, {"file", fmt::format("{}/{:02}.png", folder, k)}});
     write_picture(root / frames.back()["file"].get<std::string>(), small[k]);
@@ -57,6 +57,7 @@ nlohmann::json figures_json(const Scene& scene, const Traced& traced, const std:
                       {"residuals", nlohmann::json::array()},
                       {"projections", nlohmann::json::array()},
                       {"views", nlohmann::json::array()}};
+  const std::vector<ToldPoints> told = told_points(scene, traced);
   for (const Kept& k : kept) {
     const ProjectorOutcome& o = outcomes[k.view->projector];
     const glm::ivec2 size = scene.projectors[o.projector].device.intrinsics.size;
@@ -66,7 +67,7 @@ nlohmann::json figures_json(const Scene& scene, const Traced& traced, const std:
                              {"decoded", "decoded_" + stem_of(scene, *k.view) + ".exr"},
                              {"frames", k.frames}});
     if (o.solve.status == Status::refused) continue;
-    json["residuals"].push_back(residual_figure(k.decoded, traced.points_world[k.view->camera],
+    json["residuals"].push_back(residual_figure(k.decoded, told[k.view->camera].points_world,
                                                 o.solve.estimate, scene.cameras[k.view->camera].device.name,
                                                 o.name));
   }
@@ -82,7 +83,8 @@ nlohmann::json figures_json(const Scene& scene, const Traced& traced, const std:
   return json;
 }
 
-Image<float> white_frame(const CapturedStack* pictures, const View& view, int full_scale) {
+Image<float> white_frame(const CapturedStack* pictures, const PatternSequence& sequence, const View& view,
+                         int full_scale) {
   Image<float> white(view.light.width, view.light.height);
   if (!pictures) {
     for (std::size_t i = 0; i < white.values.size(); ++i) white.values[i] = view.light.lit(i) ? 1.0f : 0.0f;
@@ -90,7 +92,7 @@ Image<float> white_frame(const CapturedStack* pictures, const View& view, int fu
   }
   std::visit(
       [&](const auto& stack) {
-        const auto picture = stack.picture(stack.count - 2);
+        const auto picture = stack.picture(white_picture(sequence));
         for (std::size_t i = 0; i < white.values.size(); ++i)
           white.values[i] = float(picture[i]) / float(full_scale);
       },
@@ -165,8 +167,9 @@ RoundtripOutput roundtrip(const Scene& scene, const std::string& scene_name,
   const auto keep = [&](const View& view, const CapturedStack* pictures, const DecodedMap& decoded) {
     if (!folder) return;
     const int full_scale = (1 << scene.cameras[view.camera].sensor.bit_depth) - 1;
-    kept.push_back({&view, white_frame(pictures, view, full_scale), decoded,
-                    write_frames(scene, view, pictures, full_scale, folder->path())});
+    const PatternSequence sequence = pattern_sequence(scene, scene.projectors[view.projector]);
+    kept.push_back({&view, white_frame(pictures, sequence, view, full_scale), decoded,
+                    write_frames(scene, view, sequence, pictures, full_scale, folder->path())});
   };
   out.outcomes = run_trial(scene, traced, options, out.times, keep, progress);
   if (folder) {

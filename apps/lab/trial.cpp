@@ -41,8 +41,9 @@ void judge(const Scene& scene, const Traced& traced, const Correspondences& corr
     if (outcome.solve.status == Status::ok && !(predicted <= solve_options.tolerance_px)) {
       outcome.solve.status = Status::weak;
       outcome.solve.reason =
-          fmt::format("noise predicts {:.3g} px over the volume, above the tolerance of {:.3g} px", predicted,
-                      solve_options.tolerance_px);
+          fmt::format("{} predicts {:.3g} px over the volume, above the tolerance of {:.3g} px",
+                      outcome.solve.covariance_camera.empty() ? "noise" : "noise and uncertain cameras",
+                      predicted, solve_options.tolerance_px);
     }
     outcome.surface_error_px.reserve(points.size());
     for (const glm::dvec2& e : error_vectors(truth, outcome.solve.estimate, points)) {
@@ -54,7 +55,9 @@ void judge(const Scene& scene, const Traced& traced, const Correspondences& corr
 void append_flags(const CapturedStack& pictures, const PatternSequence& sequence, const DecodedMap& map,
                   ProjectorOutcome& outcome) {
   outcome.times.measure("decode", [&] {
-    for (const std::string& flag : report_on(pictures, sequence, map).flags) outcome.flags.push_back(flag);
+    const DecodeReport report = report_on(pictures, sequence, map);
+    outcome.flags.insert(outcome.flags.end(), report.flags.begin(), report.flags.end());
+    outcome.doubts.insert(outcome.doubts.end(), report.doubts.begin(), report.doubts.end());
   });
 }
 
@@ -72,8 +75,9 @@ std::vector<glm::dvec3> lit_points(const Traced& traced, int projector) {
   return points;
 }
 
-void append_correspondences(const DecodedMap& decoded, const PixelArray<glm::dvec3>& points_world, int camera,
-                            int block_px, Correspondences& out) {
+void append_correspondences(const DecodedMap& decoded, const ToldPoints& told, int camera, int block_px,
+                            Correspondences& out) {
+  const PixelArray<glm::dvec3>& points_world = told.points_world;
   const int width = points_world.width, height = points_world.height;
   const std::uint32_t columns = std::uint32_t((width + block_px - 1) / block_px);
   const std::uint32_t blocks = columns * std::uint32_t((height + block_px - 1) / block_px);
@@ -87,6 +91,10 @@ void append_correspondences(const DecodedMap& decoded, const PixelArray<glm::dve
   }
   out.world_points.resize(first.back()), out.projector_pixels.resize(first.back());
   out.sigma_px.resize(first.back()), out.cluster.resize(first.back());
+  if (!out.cameras.empty()) {
+    out.camera.resize(first.back(), std::uint32_t(camera));
+    out.normals_world.resize(first.back());
+  }
   parallel_for(height, [&](std::size_t row) {
     const int y = int(row);
     std::size_t k = first[row];
@@ -96,6 +104,7 @@ void append_correspondences(const DecodedMap& decoded, const PixelArray<glm::dve
       out.world_points[k] = points_world.values[i];
       out.projector_pixels[k] = {decoded.u_px.values[i], decoded.v_px.values[i]};
       out.sigma_px[k] = decoded.sigma_px.values[i];
+      if (!out.cameras.empty()) out.normals_world[k] = told.normals_world.values[i];
       out.cluster[k++] = std::uint32_t(camera) * blocks + std::uint32_t(y / block_px) * columns +
                          std::uint32_t(x / block_px);
     }
@@ -120,12 +129,14 @@ std::vector<ProjectorOutcome> run_trial(const Scene& scene, const Traced& traced
                                         StageTimes& times, const ViewSink& sink, const Progress& progress) {
   if (comes_from_files(scene.patterns.kind) && !options.true_uv)
     throw InputError("[patterns]: pictures from files tell no pixel its place, expected coded patterns");
+  const std::vector<ToldPoints> told = times.measure("surface", [&] { return told_points(scene, traced); });
   std::vector<ProjectorOutcome> outcomes;
   for (int p = 0; p < int(scene.projectors.size()); ++p) {
     ProjectorOutcome outcome;
     outcome.projector = p;
     outcome.name = scene.projectors[p].device.name;
     Correspondences correspondences;
+    correspondences.cameras = told_cameras(scene);
     const PatternSequence sequence = pattern_sequence(scene, scene.projectors[p]);
     for (const View& view : traced.views) {
       if (view.projector != p) continue;
@@ -138,8 +149,7 @@ std::vector<ProjectorOutcome> run_trial(const Scene& scene, const Traced& traced
         return pictures ? decode(*pictures, sequence, options.decode) : true_map(view.light);
       });
       if (pictures) append_flags(*pictures, sequence, decoded, outcome);
-      append_correspondences(decoded, traced.points_world[view.camera], view.camera, options.block_px,
-                             correspondences);
+      append_correspondences(decoded, told[view.camera], view.camera, options.block_px, correspondences);
       if (sink) sink(view, pictures ? &*pictures : nullptr, decoded);
     }
     outcome.correspondences = correspondences.world_points.size();
@@ -147,6 +157,7 @@ std::vector<ProjectorOutcome> run_trial(const Scene& scene, const Traced& traced
       progress(
           fmt::format("solving for \"{}\" from {} correspondences", outcome.name, outcome.correspondences));
     judge(scene, traced, correspondences, options, outcome);
+    add_doubts(outcome.solve, outcome.doubts);
     for (const auto& stage : outcome.times.stages) times.add(stage.name, stage.seconds);
     outcomes.push_back(std::move(outcome));
   }

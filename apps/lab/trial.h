@@ -3,6 +3,7 @@
 #pragma once
 
 #include "apps/lab/simulation.h"
+#include "apps/lab/told_points.h"
 #include "calib/decode.h"
 #include "calib/decode_report.h"
 #include "calib/solve.h"
@@ -30,15 +31,17 @@ struct ProjectorOutcome {
   std::vector<float> surface_error_px;  ///< per surface point, in the order of camera pixels of the first
                                         ///< camera, NaN where dark
   std::vector<std::string> flags;       ///< what looks wrong in its pictures, view by view
+  std::vector<std::string> doubts;      ///< those that make the verdict at best weak (decode_report.h)
   StageTimes times;                     ///< shared stages (build, surface) included
 };
 
 /// Called once per view with the pictures, before they are dropped.
 using ViewSink = std::function<void(const View&, const CapturedStack*, const DecodedMap&)>;
 
-/// Adds a view's decoded pixels, with the world points (m, NaN: none) that the camera's pixels see.
-void append_correspondences(const DecodedMap& decoded, const PixelArray<glm::dvec3>& points_world, int camera,
-                            int block_px, Correspondences& out);
+/// Adds a view's decoded pixels, with the world points (NaN: none) that the camera's pixels are told to see.
+/// Where out.cameras is not empty, `told` must have normals.
+void append_correspondences(const DecodedMap& decoded, const ToldPoints& told, int camera, int block_px,
+                            Correspondences& out);
 
 /// The true (u, v) of a view as a decoded map, sigma 1e-3 px: for tests of everything but decoding.
 DecodedMap true_map(const LightMap& light);
@@ -47,8 +50,11 @@ DecodedMap true_map(const LightMap& light);
 /// pixels.
 std::vector<glm::dvec3> lit_points(const Traced& traced, int projector);
 
-/// Runs the round trip for each projector of the scene, all cameras together. Throws InputError for a scene
-/// without projector or camera; what cannot be recovered ends as a refusal in the outcome.
+/// Runs the round trip for each projector of the scene, all cameras together. Pictures and the true projector
+/// are those of the true meshes and cameras; the world points handed to the solver come from the believed
+/// ones. A camera pixel whose believed ray misses the believed meshes gives no correspondence. Throws
+/// InputError for a scene without projector or camera; what cannot be recovered ends as a refusal in the
+/// outcome.
 std::vector<ProjectorOutcome> run_trial(const Scene& scene, const Traced& traced, const TrialOptions& options,
                                         StageTimes& times, const ViewSink& sink = {},
                                         const Progress& progress = {});

@@ -41,6 +41,14 @@ std::vector<double> values_of(const Device& d) {
   return values;
 }
 
+// How the prediction is made up, where cameras are uncertain.
+Json camera_share_json(const SolveResult& solve) {
+  return {
+      {"from_noise", number(std::sqrt(std::max(0.0, std::pow(solve.predicted_volume_rms_px, 2) -
+                                                        std::pow(solve.predicted_volume_rms_camera_px, 2))))},
+      {"from_camera", number(solve.predicted_volume_rms_camera_px)}};
+}
+
 std::string error_line(const char* name, const ErrorSummary& e) {
   return fmt::format("  {:<14} {:>10.4g} {:>10.4g} {:>14.4g} {:>9}{}\n", name, e.rms, e.max, e.predicted_rms,
                      e.points, e.failed ? fmt::format("  ({} cannot be projected)", e.failed) : "");
@@ -106,7 +114,9 @@ Json estimate_json(const std::string& name, const SolveResult& solve) {
           {"texture_from_world", json_of(texture_from_world(d))},
           {"sigma", sigma_json(solve)},
           {"parameters", solve.parameter_names},
-          {"covariance", solve.covariance}};
+          {"covariance", solve.covariance},
+          {"predicted_volume_rms_px", number(solve.predicted_volume_rms_px)},
+          {"predicted_volume_px", camera_share_json(solve)}};
 }
 
 std::string estimates_text(const std::vector<Json>& estimates) {
@@ -184,6 +194,11 @@ std::string solve_text(const SolveResult& solve, const Device* truth) {
                         i < solve.sigma.size() ? solve.sigma[i] : NAN);
     if (truth && true_values.size() == estimate.size()) text += fmt::format(" {:>16.8g}", true_values[i]);
     text += "\n";
+  }
+  if (!solve.covariance_camera.empty()) {
+    text += fmt::format(
+        "  predicted error over the volume {:.4g} px, of it {:.4g} px from the cameras' uncertainty\n",
+        solve.predicted_volume_rms_px, solve.predicted_volume_rms_camera_px);
   }
   return text + matrix_lines(solve.estimate, truth);
 }

@@ -19,7 +19,8 @@ nlohmann::json trial_json(const Scene& scene, const std::vector<ProjectorOutcome
                           const StageTimes& times);
 
 /// One estimate: the keys of "estimate" above, beside name, status, reason, size, device_from_world (3×4),
-/// parameters and covariance (row-major, in their order).
+/// parameters and covariance (row-major, in their order), and the predicted error over the volume with its
+/// two parts, whose squares add up: "predicted_volume_px": {"from_noise", "from_camera"}.
 nlohmann::json estimate_json(const std::string& name, const SolveResult& solve);
 
 /// {"format": "laterna-estimate", "version": 1, "projectors": [estimate_json...]}: what `laterna calibrate`

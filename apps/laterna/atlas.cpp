@@ -26,7 +26,9 @@ int run(Words& words, const Common& common) {
   }
   const std::filesystem::path out(words.out);
   const nlohmann::json summary = atlas_summary(atlas);
-  write_file(out / "atlas.json", summary.dump(2) + "\n");
+  nlohmann::json reference = summary;
+  reference["letters"] = atlas_letters(atlas);
+  write_file(out / "atlas.json", reference.dump(1) + "\n");
   write_file(out / "cells.json", atlas_cells(atlas, words.spec).dump(1) + "\n");
   if (common.json)
     fmt::print("{}\n", summary.dump());

@@ -37,15 +37,6 @@ Scene believed_scene(const Words& words, const CaptureManifest& manifest) {
   return load_scene(std::filesystem::path(words.paths[0]) / manifest.scene);
 }
 
-void check_output(const std::string& out) {
-  if (out.empty()) return;
-  if (std::filesystem::exists(out))
-    throw InputError(fmt::format("{} exists already, expected a new file", out));
-  const auto parent = std::filesystem::absolute(out).parent_path();
-  if (!std::filesystem::is_directory(parent))
-    throw InputError(fmt::format("{}: no such folder, expected one to write into", parent.string()));
-}
-
 bool is_table(const std::string& path) {
   return std::filesystem::exists(path) ? !std::filesystem::is_directory(path) : path.ends_with(".csv");
 }
@@ -105,11 +96,11 @@ void expect_options(const CLI::App& command, For what) {
   for (const auto& [option, of] : options) {
     if (command.count(option) == 0 || of == what) continue;
     if (of == For::boards && what != For::known_scene) continue;
-    const char* expected = of == For::known_scene ? "a folder of a known scene, without --board"
-                           : of == For::table     ? "FILE.csv"
-                           : of == For::boards    ? "FILE.csv or --board"
-                                                  : "folders and --board";
-    throw InputError(fmt::format("{} does not go with this input, expected {}", option, expected));
+    const char* right = of == For::known_scene ? "pictures of a known scene, expected a folder and no --board"
+                        : of == For::table     ? "a table of correspondences, expected FILE.csv"
+                        : of == For::boards    ? "boards, expected FILE.csv or --board"
+                                               : "pictures of boards, expected folders and --board";
+    throw InputError(fmt::format("{} is for {}", option, right));
   }
 }
 

@@ -134,7 +134,9 @@ int calibrate_board_folders(const std::vector<std::string>& folders,
   if (!words.correspondences.empty()) write_file(words.correspondences, correspondence_csv(found.capture));
   BoardOptions options = options_of(words, output, found.capture.devices.size());
   if (words.boards.size() > 1) options.ladder.bend = LadderOptions::Bend::off;
-  return finish(calibrate_boards(found.capture, options), found, words, output, common);
+  BoardCalibration calibration = calibrate_boards(found.capture, options);
+  add_doubts(calibration, found.doubts);
+  return finish(calibration, found, words, output, common);
 }
 
 }  // namespace laterna

@@ -41,13 +41,18 @@ void add_capture(CLI::App& app, Common& common);
 void add_render(CLI::App& app, Common& common);
 void add_decode(CLI::App& app, Common& common);
 void add_calibrate(CLI::App& app, Common& common);
+void add_selfcal(CLI::App& app, Common& common);
 void add_verify(CLI::App& app, Common& common);
 void add_roundtrip(CLI::App& app, Common& common);
 void add_atlas(CLI::App& app, Common& common);
+void add_chart(CLI::App& app, Common& common);
 void add_report(CLI::App& app, Common& common);
 
 /// A line of progress on standard error, unless --json is on.
 void progress(const Common& common, const std::string& line);
+
+/// Throws InputError where a file to write (empty: none) exists already, or its folder does not.
+void check_output(const std::string& out);
 
 /// "1920x1080" to a size. Throws InputError for anything else.
 std::array<int, 2> parse_size(const std::string& text, const char* option);

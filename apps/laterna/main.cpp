@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 
 namespace laterna {
 
@@ -28,6 +29,15 @@ std::array<int, 2> parse_size(const std::string& text, const char* option) {
     throw InputError(fmt::format("{}: found \"{}\", expected WIDTHxHEIGHT such as 1920x1080", option, text));
   }
   return size;
+}
+
+void check_output(const std::string& out) {
+  if (out.empty()) return;
+  if (std::filesystem::exists(out))
+    throw InputError(fmt::format("{} exists already, expected a new file", out));
+  const auto parent = std::filesystem::absolute(out).parent_path();
+  if (!std::filesystem::is_directory(parent))
+    throw InputError(fmt::format("{}: no such folder, expected one to write into", parent.string()));
 }
 
 namespace {
@@ -55,9 +65,9 @@ int run(int argc, char** argv) {
       "--isa", common.isa,
       fmt::format("Uses no more than this instruction set: {}", fmt::join(instruction_set_names(), ", ")));
   app.add_flag("--json", common.json, "Prints JSON for machines on standard output, and nothing else there");
-  for (const auto add :
-       {add_new, add_check, add_info, add_project, add_preview, add_patterns, add_capture, add_render,
-        add_decode, add_calibrate, add_verify, add_roundtrip, add_atlas, add_report}) {
+  for (const auto add : {add_new, add_check, add_info, add_project, add_preview, add_patterns, add_capture,
+                         add_render, add_decode, add_calibrate, add_selfcal, add_verify, add_roundtrip,
+                         add_atlas, add_chart, add_report}) {
     add(app, common);
   }
   app.parse_complete_callback([&] {

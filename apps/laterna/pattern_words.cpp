@@ -23,6 +23,8 @@ struct WordAdder {
       command.add_option_function<std::string>(
           name, [&value](const std::string& word) { value = patterns_of(word).kind; },
           std::string("Patterns. ") + field.sentence);
+    } else if constexpr (std::is_same_v<T, bool>) {
+      command.add_flag(name, value, field.sentence);
     } else {
       CLI::Option* option =
           command.add_option(name, value, field.sentence)->check(CLI::Range(field.low, field.high));

@@ -8,8 +8,8 @@
 
 namespace laterna {
 
-/// Adds --kind, --steps, --pitch-px, --pitches-px, --xor-stripe-px and --square-px, with the ranges of a
-/// scene file's [patterns]; the parameters are set when the command line is parsed.
+/// Adds --kind, --steps, --pitch-px, --pitches-px, --xor-stripe-px, --square-px and --repeat-first, with the
+/// ranges of a scene file's [patterns]; the parameters are set when the command line is parsed.
 void add_pattern_words(CLI::App& command, PatternParameters& patterns);
 
 /// The family for a folder of plain pictures; empty where --projector-size is.

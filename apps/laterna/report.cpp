@@ -25,8 +25,16 @@ std::filesystem::path default_output(const std::filesystem::path& path) {
 void write_figures(const nlohmann::json& data, const std::filesystem::path& target) {
   PendingFolder folder(target);
   for (const StaticFigure& figure : static_figures(data))
-    write_file(folder.path() / (figure.name + ".svg"), figure.svg);
+    write_file(folder.path() / figure.file_name(), figure.file_bytes());
   folder.commit();
+}
+
+std::string page_of(const nlohmann::json& data, const Words& words, const Common& common) {
+  if (words.is_static) return static_report_page(data, StaticReason::asked);
+  const std::filesystem::path bundle = report_bundle();
+  if (!bundle.empty()) return report_page(data, bundle);
+  progress(common, "no report.js beside the program (it was built without Node): static figures instead");
+  return static_report_page(data, StaticReason::no_bundle);
 }
 
 int run(const Words& words, const Common& common) {
@@ -37,10 +45,7 @@ int run(const Words& words, const Common& common) {
   }
   const std::filesystem::path out =
       words.out.empty() ? default_output(words.path) : std::filesystem::path(words.out);
-  const std::filesystem::path bundle = words.is_static ? std::filesystem::path{} : report_bundle();
-  if (bundle.empty() && !words.is_static)
-    progress(common, "no report.js beside the program (it was built without Node): static figures instead");
-  write_file(out, report_page(data, bundle));
+  write_file(out, page_of(data, words, common));
   if (!words.figures.empty()) write_figures(data, words.figures);
   fmt::print("open {}\n", out.string());
   return exit_ok;
@@ -58,8 +63,9 @@ void add_report(CLI::App& app, Common& common) {
   command->add_option("PATH", words->path, "Folder, or JSON by `laterna calibrate --board`")->required();
   command->add_option("-o,--output", words->out,
                       "HTML file, replaced where it exists (default: PATH/report.html)");
-  command->add_option("--figures", words->figures, "New folder for each figure as static SVG");
-  command->add_flag("--static", words->is_static, "Static SVG figures and no script");
+  command->add_option("--figures", words->figures,
+                      "New folder for each figure as a file: drawings as SVG, pictures as PNG");
+  command->add_flag("--static", words->is_static, "Static figures and no script");
   command->callback([words, &common] { common.exit_code = run(*words, common); });
 }
 

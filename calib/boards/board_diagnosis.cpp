@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 namespace laterna {
 
@@ -110,21 +111,28 @@ DeviceDiagnosis diagnose_device(const RigProblem& problem, const RigFit& fit, co
   return d;
 }
 
-// How far a rig without one pose puts the points of a device elsewhere, rms; none where it cannot.
+// How far a rig with some of the poses puts the points of a device elsewhere, rms; none where it cannot.
+std::optional<double> distance_px(const RigProblem& problem, const BoardRig& from, const BoardRig& to,
+                                  const std::vector<int>& poses, int device,
+                                  const std::vector<glm::dvec3>& points) {
+  const LensGradient& lens = problem.lenses[device];
+  double sum = 0;
+  for (const glm::dvec3& x : points) {
+    const auto there = carried_pixel(lens, from, to, poses, device, x);
+    const auto here = carried_pixel(lens, from, from, {0}, device, x);
+    if (!there || !here) return std::nullopt;
+    sum += glm::dot(*there - *here, *there - *here);
+  }
+  return std::sqrt(sum / double(std::max<std::size_t>(1, points.size())));
+}
+
+// The same for a rig without one pose.
 std::optional<double> leverage(const RigProblem& problem, const RigFit& fit, const HeldOutPose& fold,
                                int device, const std::vector<glm::dvec3>& points) {
   std::vector<int> poses;
   for (int k = 0; k < fit.capture.pose_count(); ++k)
     if (k != fold.pose) poses.push_back(k);
-  const LensGradient& lens = problem.lenses[device];
-  double sum = 0;
-  for (const glm::dvec3& x : points) {
-    const auto there = carried_pixel(lens, fit.adjustment.rig, fold.rig, poses, device, x);
-    const auto here = carried_pixel(lens, fit.adjustment.rig, fit.adjustment.rig, {0}, device, x);
-    if (!there || !here) return std::nullopt;
-    sum += glm::dot(*there - *here, *there - *here);
-  }
-  return std::sqrt(sum / double(std::max<std::size_t>(1, points.size())));
+  return distance_px(problem, fit.adjustment.rig, fold.rig, poses, device, points);
 }
 
 std::vector<std::string> strongest_correlations(const RigFit& fit, const RigCovariance& c) {
@@ -203,6 +211,14 @@ WeakestDirection weakest_direction(const RigFit& fit, const std::vector<double>&
   return {1 / svd.singularValues()[g - 1],
           direction_in_words({weakest.data(), weakest.data() + g}, column_names(fit.model, fit.capture)),
           s.back() / s.front()};
+}
+
+std::optional<double> volume_distance_px(const RigFit& fit, const BoardRig& other) {
+  std::vector<int> poses(other.camera_from_board.size());
+  std::iota(poses.begin(), poses.end(), 0);
+  const int last = int(other.devices.size()) - 1;
+  return distance_px(RigProblem(fit.capture, fit.model), fit.adjustment.rig, other, poses, last,
+                     device_grid(fit, last, volume_depths(depths_of_sightings(fit, last))));
 }
 
 Diagnosis diagnose(const RigFit& fit, const RigCovariance& covariance, const HeldOut& held_out) {

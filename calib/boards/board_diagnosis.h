@@ -60,6 +60,10 @@ struct Diagnosis {
 /// `covariance` and `held_out` belong to the fit.
 Diagnosis diagnose(const RigFit& fit, const RigCovariance& covariance, const HeldOut& held_out);
 
+/// How far another rig of the same devices, lenses and poses puts the last device's pixels elsewhere over its
+/// volume, rms (rig_covariance.h: carried_pixel()). None where a point ends up behind.
+std::optional<double> volume_distance_px(const RigFit& fit, const BoardRig& other);
+
 /// The weakest direction of an eliminated factor, and its standard deviation (infinite where singular).
 struct WeakestDirection {
   double sigma = 0;

@@ -140,6 +140,27 @@ void add_residual_weakness(const BoardCalibration& r, const BoardOptions& option
   }
 }
 
+// Where the bend was left out by order: whether the residuals follow one that would move the volume by more
+// than twice what is predicted. χ² with two degrees of freedom is above 23 once in 10⁵.
+void add_bend_weakness(const BoardCalibration& r, const BoardOptions& options,
+                       std::vector<std::string>& weak) {
+  const RigFit& fit = r.ladder.fit;
+  if (fit.model.bend || options.ladder.bend != LadderOptions::Bend::off || fit.capture.pose_count() < 3)
+    return;
+  RigModel model = fit.model;
+  model.bend = true;
+  const auto bent = fit_rig(fit.capture, model, fit.adjustment.rig, false);
+  if (!bent || fit.adjustment.loss - bent->adjustment.loss < 23) return;
+  const double moved = volume_distance_px(fit, bent->adjustment.rig).value_or(INFINITY);
+  const double predicted =
+      std::max(r.diagnosis.predicted_volume_rms_px, r.diagnosis.jackknife_volume_rms_px.value_or(0));
+  if (moved <= 2 * predicted) return;
+  weak.push_back(
+      fmt::format("the residuals follow a bent board ({:.2g} and {:.2g} in the middle), which would move the "
+                  "projector's volume by {:.2g} px where {:.2g} px are predicted; let the bend be solved for",
+                  bent->adjustment.rig.bend.x, bent->adjustment.rig.bend.y, moved, predicted));
+}
+
 BoardCalibration& refuse(BoardCalibration& result, std::string reason) {
   result.status = Status::refused;
   result.reason = std::move(reason);
@@ -210,9 +231,16 @@ BoardCalibration calibrate_boards(const BoardCapture& capture, const BoardOption
   add_capture_weaknesses(result, capture, weak);
   add_forecast_weaknesses(result, options, weak);
   add_residual_weakness(result, options, weak);
+  add_bend_weakness(result, options, weak);
   result.status = weak.empty() ? Status::ok : Status::weak;
   result.reason = fmt::format("{}", fmt::join(weak, "; "));
   return result;
+}
+
+void add_doubts(BoardCalibration& calibration, const std::vector<std::string>& doubts) {
+  if (doubts.empty()) return;
+  if (calibration.status == Status::ok) calibration.status = Status::weak;
+  calibration.reason += (calibration.reason.empty() ? "" : "; ") + fmt::format("{}", fmt::join(doubts, "; "));
 }
 
 }  // namespace laterna

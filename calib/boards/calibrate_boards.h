@@ -49,9 +49,12 @@ struct BoardCalibration {
 /// that would cure it: fewer than three poses (nothing can be held out), boards nearly parallel (all normals
 /// within 10°), no solution without one of the poses, a predicted volume error (covariance or jackknife over
 /// poses, whichever is larger) above the tolerance, a focal length known to 2 % only, a held-out rms above
-/// three times the fit's, more than 5 % outliers, residuals over twice the believed sigmas, a lens that maps
-/// no ray to parts of the image. The verdict never looks at a truth. Throws InputError for a malformed
-/// capture.
+/// three times the fit's, a bend left out by order that the residuals follow, more than 5 % outliers,
+/// residuals over twice the believed sigmas, a lens that maps no ray to parts of the image. The verdict never
+/// looks at a truth. Throws InputError for a malformed capture.
 BoardCalibration calibrate_boards(const BoardCapture& capture, const BoardOptions& options = {});
+
+/// Makes ok weak and joins the reasons: what is known of the capture beside its sightings.
+void add_doubts(BoardCalibration& calibration, const std::vector<std::string>& doubts);
 
 }  // namespace laterna

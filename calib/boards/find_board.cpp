@@ -209,7 +209,7 @@ struct Grid {
     for (const int sign : {1, -1}) {
       const glm::ivec2 there = here + sign * along;
       if (there.x < 0 || there.y < 0 || there.x >= count.x || there.y >= count.y) continue;
-      const auto k = std::size_t(there.y * count.x + there.x);
+      const std::size_t k = std::size_t(there.y) * std::size_t(count.x) + std::size_t(there.x);
       if (at[k]) return k;
     }
     return {};
@@ -280,7 +280,9 @@ std::vector<FoundPoint> find_any(const cv::Mat& view, const PrintedBoard& board)
                                                                       : find_circles(view, board);
   std::erase_if(found,
                 [](const FoundPoint& p) { return !std::isfinite(p.pixel.x) || !std::isfinite(p.pixel.y); });
-  return evenly_lit(view, board, found);
+  const std::vector<FoundPoint> lit = evenly_lit(view, board, found);
+  const bool whole = board.kind != BoardKind::charuco;
+  return whole && 2 * lit.size() < found.size() ? std::vector<FoundPoint>{} : lit;
 }
 
 void stretch(Image<float>& picture) {
@@ -317,6 +319,26 @@ std::vector<FoundPoint> find_board(const PrintPicture& picture, const PrintedBoa
     found = find_any(bytes_of(picture.darkest, linear), board);
   if (found.size() < 4) found.clear();
   return found;
+}
+
+void cover_board(PrintPicture& picture, const std::vector<FoundPoint>& found) {
+  if (found.empty() || picture.mean.values.empty()) return;
+  glm::dvec2 centre(0.0);
+  for (const FoundPoint& p : found) centre += p.pixel / double(found.size());
+  Points corners, hull;
+  for (const FoundPoint& p : found) {
+    const glm::dvec2 outwards = centre + 1.5 * (p.pixel - centre);
+    corners.emplace_back(float(outwards.x), float(outwards.y));
+  }
+  cv::convexHull(corners, hull);
+  const std::vector<cv::Point> polygon(hull.begin(), hull.end());
+  for (Image<float>* image : {&picture.mean, &picture.darkest}) {
+    if (image->values.empty()) continue;
+    std::vector<double> values;
+    for (const FoundPoint& p : found) values.push_back((*image)(int(p.pixel.x), int(p.pixel.y)));
+    cv::fillConvexPoly(cv::Mat(image->height, image->width, CV_32FC1, image->values.data()), polygon,
+                       cv::Scalar(median(values)));
+  }
 }
 
 PrintPicture print_picture(const CapturedStack& stack) {

@@ -40,6 +40,11 @@ PrintPicture print_picture(const CapturedStack& stack);
 /// is a board counts. Points at whose sides the light changes are left out, since its edge is no part of the
 /// print: of the four squares around a corner the white ones must be as bright as each other by three tenths,
 /// and the black ones as dark; so must a ring of paper around a circle.
+/// Where fewer than half of a chessboard's corners, or of a grid's circles, pass, it was something else.
 std::vector<FoundPoint> find_board(const PrintPicture& picture, const PrintedBoard& board);
+
+/// Paints a found board over, with its margin of a square, by what its middle value is: so that another board
+/// is not looked for in it.
+void cover_board(PrintPicture& picture, const std::vector<FoundPoint>& found);
 
 }  // namespace laterna

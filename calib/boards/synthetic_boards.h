@@ -86,7 +86,7 @@ inline BoardTruth board_truth(const BoardScene& scene, std::mt19937_64& random) 
         t.capture.sightings.push_back({d,
                                        k,
                                        corner,
-                                       {0.06 * (corner % 9), 0.06 * (corner / 9), 0},
+                                       {0.06 * (corner % 9), 0.06 * ((corner - corner % 9) / 9.0), 0},
                                        {0, 0},
                                        d == 0 ? scene.camera_sigma_px : scene.projector_sigma_px});
   }

@@ -27,10 +27,11 @@ std::span<const BoardMethod> board_methods();
 struct MethodResult {
   std::string name;
   std::optional<BoardRig> rig;
-  std::string failure;             ///< the reason where there is no rig
-  std::vector<double> fit_rms_px;  ///< of each device
-  HeldOut held_out;                ///< the method itself solves every fold, from nothing
-  double seconds = 0;              ///< of one solve of the whole capture, wall clock
+  std::string failure;                 ///< the reason where there is no rig
+  std::vector<double> fit_rms_px;      ///< of each device
+  HeldOut held_out;                    ///< the method itself solves every fold, from nothing
+  double seconds = 0;                  ///< of one solve of the whole capture, wall clock
+  std::optional<double> over_bound{};  ///< error over the Cramér-Rao bound; none without a truth
 };
 
 /// Runs every method on the same sightings.

@@ -310,7 +310,11 @@ TEST(Command, BadTablesAndWordsAreOneSentence) {
             "expected one in an image of 100x100"},
            {"board.csv --lens fisheye" + sizes, "lens is \"fisheye\", expected auto"},
            {"board.csv --scene s.toml" + sizes, "--scene is for pictures"},
-           {"folder --lens k1", "--lens is for a table"}}) {
+           {"folder --lens k1", "--lens is for boards"},
+           {"folder --camera-size 3x4 --board chessboard,9x7,75mm", "--camera-size is for a table"},
+           {"board.csv --board chessboard,9x7,75mm" + sizes, "--board is for pictures"},
+           {"folder --board chess", "board \"chess\", expected chessboard"},
+           {"folder folder", "2 folders, expected one"}}) {
     const auto result = laterna("calibrate " + words, scratch.path());
     EXPECT_EQ(result.exit_code, 2) << words;
     EXPECT_THAT(result.err, HasSubstr(expected)) << words;
@@ -425,6 +429,29 @@ TEST(Command, DamagedCapturesAreBadInput) {
   const auto exists = laterna("capture s.toml -o cap", scratch.path());
   EXPECT_EQ(exists.exit_code, 2);
   EXPECT_THAT(exists.err, HasSubstr("exists"));
+}
+
+TEST(Command, ChartKeepsItsContractAndItsCommandsReproduce) {
+  const ScratchFolder scratch;
+  write_text(scratch / "sweep.toml",
+             "[[grid]]\nname = \"g\"\nkind = \"points\"\nseeds = 3\nmethods = [\"laterna\", \"dlt\"]\n"
+             "points = [20, 50]\n");
+  const auto run = laterna("chart sweep.toml -o out --json", scratch.path());
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(listing(scratch / "out"), "chart.csv chart.json chart.svg journal.jsonl reference.json ");
+  const json parsed = json::parse(run.out);
+  ASSERT_EQ(parsed.at("points").size(), 4u);
+  EXPECT_GE(parsed.at("pareto").size(), 1u);
+  const json& point = parsed["points"][3];
+  EXPECT_EQ(point.at("label"), "g: points=50 method=dlt");
+  for (const char* key : {"error_px", "bound_px", "seconds", "spread_px"}) EXPECT_GT(point.at(key), 0) << key;
+  const auto command = point.at("command").get<std::string>();
+  ASSERT_TRUE(command.starts_with("laterna "));
+  const auto again = laterna(command.substr(8) + " --json", scratch.path());
+  ASSERT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_EQ(json::parse(again.out)["points"][0]["error_px"], point["error_px"]);
+  EXPECT_EQ(laterna("chart sweep.toml -o out --json", scratch.path()).exit_code, 2);  // holds a run already
+  EXPECT_EQ(laterna("chart sweep.toml -o out --resume --json", scratch.path()).out, run.out);
 }
 
 }  // namespace

@@ -75,7 +75,8 @@ double volume_error_px(const Scene& scene, const std::vector<SceneSpec>& places,
   int points = 0;
   for (int k = 0; k < 16 * 12 * 3; ++k) {
     const glm::dvec2 pixel(16 + 32 * (k % 16), 16 + 32 * (k / 16 % 12));
-    const auto x = eye.unproject(pixel, 0.65 + 0.2 * (k / 192));
+    const int layer = k / 192;
+    const auto x = eye.unproject(pixel, 0.65 + 0.2 * layer);
     const auto carried = carried_pixel(LensGradient(fit.model.devices[1].lens_model), true_rig(scene, places),
                                        fit.adjustment.rig, poses, 1, x.value());
     const glm::dvec2 d = carried.value() - pixel;

@@ -1,5 +1,6 @@
 #include "apps/lab/report/report_page.h"
 
+#include "apps/lab/chart/chart_report.h"
 #include "apps/lab/report/report_data.h"
 #include "apps/lab/report/static_figures.h"
 #include "apps/lab/report/svg_chart.h"
@@ -20,10 +21,18 @@ using ::testing::Not;
 using testing::ScratchFolder;
 using testing::write_text;
 
-const std::string chart = R"({"points": [
-  {"label": "a<b", "error_px": 0.5, "bound_px": 0.4, "seconds": 1, "spread_px": 0.1, "command": "laterna </script>"},
-  {"label": "no answer", "error_px": null, "bound_px": null, "seconds": 2, "spread_px": null, "command": "x"}],
-  "pareto": ["a<b"]})";
+// A chart of two points, the second without an answer, as `laterna chart` leaves it.
+std::string small_chart() {
+  Chart chart{"small<1>", "seconds", false, {}, false, 2, 2};
+  chart.points.resize(2);
+  ChartPoint &good = chart.points[0], &none = chart.points[1];
+  good.label = "a<b", none.label = "no answer";
+  good.series = none.series = "a", good.kind = none.kind = "points", good.method = none.method = "laterna";
+  good.values = none.values = json::object();
+  good.seeds = good.ok = none.seeds = none.refused = 1;
+  good.error_px = {0.4, 0.5, 0.6}, good.bound_px = 0.4, good.seconds = good.x = 1;
+  return chart_json(chart, "</script>", 1).dump();
+}
 
 TEST(Base64, TestVectorsOfRfc4648) {
   EXPECT_EQ(base64(""), "");
@@ -32,6 +41,9 @@ TEST(Base64, TestVectorsOfRfc4648) {
   EXPECT_EQ(base64("foo"), "Zm9v");
   EXPECT_EQ(base64("foobar"), "Zm9vYmFy");
   EXPECT_EQ(base64("\xff\xfe"), "//4=");
+  for (const char* bytes : {"", "f", "fo", "foo", "\xff\xfe"})
+    EXPECT_EQ(bytes_of_data_uri("data:image/png;base64," + base64(bytes)), bytes);
+  EXPECT_THAT(input_error([] { bytes_of_data_uri("https://x"); }), HasSubstr("no data URI"));
 }
 
 TEST(Thumbnails, BoxesGiveTheirMeanAndEdgesWhatIsInside) {
@@ -46,25 +58,25 @@ TEST(Thumbnails, BoxesGiveTheirMeanAndEdgesWhatIsInside) {
 }
 
 TEST(SvgChart, LeavesOutWhatCannotBeDrawn) {
-  Chart chart{"t<1>", "x", "y", true, true, {}};
+  SvgChart chart{"t<1>", "x", "y", true, true, {}};
   chart.series.push_back(
-      {ChartSeries::Kind::points, "s", "#000", {{1, 2, "here"}, {-1, 2}, {1, NAN}, {10, 3}}});
+      {SvgSeries::Kind::points, "s", "#000", {{1, 2, "here"}, {-1, 2}, {1, NAN}, {10, 3}}});
   const std::string svg = svg_chart(chart);
   EXPECT_THAT(svg, HasSubstr("t&lt;1&gt;"));
   EXPECT_THAT(svg, Not(HasSubstr("nan")));
   std::size_t circles = 0;
   for (std::size_t at = svg.find("<circle"); at != std::string::npos; at = svg.find("<circle", at + 1))
     ++circles;
-  EXPECT_EQ(circles, 2U);
+  EXPECT_EQ(circles, 3U);  // two points, and the key
   chart.series[0].points = {{-1, 2}};
   EXPECT_THAT(svg_chart(chart), HasSubstr("no points"));
 }
 
 TEST(ReportData, TakesAChartAsItStands) {
   const ScratchFolder scratch;
-  write_text(scratch / "chart.json", chart);
+  write_text(scratch / "chart.json", small_chart());
   const json data = report_data(scratch.path());
-  EXPECT_EQ(data["chart"], json::parse(chart));
+  EXPECT_EQ(data["chart"], json::parse(small_chart()));
   ASSERT_EQ(data["verdicts"].size(), 1U);
   EXPECT_EQ(data["verdicts"][0]["facts"][0]["value"], 2);
   EXPECT_FALSE(data.contains("atlas"));
@@ -78,9 +90,11 @@ TEST(ReportData, SaysWhatIsWrong) {
   write_text(scratch / "chart.json", R"({"points": []})");
   EXPECT_THAT(input_error([&] { report_data(scratch.path()); }),
               HasSubstr("chart.json: has no key \"pareto\""));
+  write_text(scratch / "chart.json", R"({"points": [{}], "pareto": [], "chart": "c", "against": "seconds"})");
+  EXPECT_THAT(input_error([&] { report_data(scratch.path()); }), HasSubstr("key 'label' not found"));
   write_text(scratch / "chart.json", "{");
   EXPECT_THAT(input_error([&] { report_data(scratch.path()); }), HasSubstr("chart.json: no JSON"));
-  write_text(scratch / "chart.json", chart);
+  write_text(scratch / "chart.json", small_chart());
   write_text(scratch / "result.json", R"({"projectors": [], "seconds": {}})");
   write_text(scratch / "figures.json", R"({"rig": {}, "points": [], "residuals": [], "projections": [],
     "views": [{"camera": "c", "projector": "p", "projector_size": [1, 1], "decoded": "../x.exr", "frames": []}]})");
@@ -89,7 +103,7 @@ TEST(ReportData, SaysWhatIsWrong) {
 
 TEST(ReportPage, DataCannotLeaveTheirScript) {
   const ScratchFolder scratch;
-  write_text(scratch / "chart.json", chart);
+  write_text(scratch / "chart.json", small_chart());
   const json data = report_data(scratch.path());
   const std::string page = report_page(data, write_text(scratch / "report.js", "draw();"));
   EXPECT_THAT(page, HasSubstr("<script>draw();</script>"));
@@ -100,9 +114,9 @@ TEST(ReportPage, DataCannotLeaveTheirScript) {
 
 TEST(ReportPage, StaticWithoutABundle) {
   const ScratchFolder scratch;
-  write_text(scratch / "chart.json", chart);
-  const std::string page = report_page(report_data(scratch.path()), {});
-  EXPECT_THAT(page, HasSubstr("static figures"));
+  write_text(scratch / "chart.json", small_chart());
+  const std::string page = static_report_page(report_data(scratch.path()), StaticReason::no_bundle);
+  EXPECT_THAT(page, HasSubstr("built without Node"));
   EXPECT_THAT(page, HasSubstr("<svg"));
   EXPECT_THAT(page, Not(HasSubstr("<script")));
 }

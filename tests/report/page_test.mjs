@@ -1,13 +1,15 @@
 // The report's page in headless Chromium: node page_test.mjs LATERNA NODE_MODULES CHROMIUM SOURCE SCRATCH
-// It loads with no console error and no request, its numbers are the data's, every figure draws, the slider moves. Screenshots stay in SCRATCH.
+// It loads with no console error and no request, its numbers are the data's, every figure draws, the
+// slider moves. A failure leaves a screenshot in SCRATCH; with LATERNA_SCREENSHOTS=1 all are kept, for looking at.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
-import { cpSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { cpSync, mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { join } from "node:path";
 
 const [laterna, modules, chromiumPath, source, scratch] = process.argv.slice(2);
 const { chromium } = createRequire(join(modules, "x.js"))("playwright-core");
+const screenshots = process.env.LATERNA_SCREENSHOTS === "1";
 rmSync(scratch, { recursive: true, force: true });
 mkdirSync(scratch, { recursive: true });
 const run = (...words) => {
@@ -59,33 +61,65 @@ look_at = [0, 0, 0]
 up = [0.1, 1, 0]
 `;
 
-// One folder with everything that a page can hold.
+const sweep = `
+[[grid]]
+name = "slab"
+kind = "points"
+seeds = 3
+repeats = 1
+methods = ["laterna", "dlt"]
+points = [20, 100, 500]
+`;
+
+const conditions = `
+[[grid]]
+name = "few"
+kind = "points"
+seeds = 3
+methods = ["laterna", "opencv"]
+points = [5, 30, 100]
+[[grid]]
+name = "seen"
+kind = "pictures"
+seeds = 1
+scene = "${join(source, "data/atlas/small.toml")}"
+[[grid]]
+name = "shifted"
+kind = "points"
+hidden = true
+seeds = 2
+shift_u_px = [1, 2, 3]
+`;
+
+const json = (name) => JSON.parse(readFileSync(join(scratch, name)));
+
+// One folder with everything that a page can hold, as the commands leave it.
 function gather() {
-  writeFileSync(join(scratch, "scene.toml"), scene);
+  for (const [name, text] of [["scene.toml", scene], ["sweep.toml", sweep], ["conditions.toml", conditions], ["board.csv", boardTable()]]) writeFileSync(join(scratch, name), text);
   run("roundtrip", "scene.toml", "-o", "all");
-  run("atlas", join(source, "data/atlas/standard.toml"), "-o", "atlas", "--cell", "few points: points=8");
-  for (const name of ["atlas.json", "cells.json"]) cpSync(join(scratch, "atlas", name), join(scratch, "all", name));
-  const point = (label, error_px, seconds) => ({ label, error_px, bound_px: error_px * 0.8, seconds, spread_px: error_px / 5, command: `laterna chart ${label} </script>` });
-  const chart = { points: [point("gray", 0.003, 0.5), point("phase", 0.0018, 0.3), point("many", 0.0009, 0.9)], pareto: ["phase", "many"] };
-  writeFileSync(join(scratch, "all/chart.json"), JSON.stringify(chart));
-  writeFileSync(join(scratch, "board.csv"), boardTable());
+  run("chart", "sweep.toml", "-o", "chart");
+  run("atlas", "conditions.toml", "-o", "atlas");
+  cpSync(join(scratch, "chart/chart.json"), join(scratch, "all/chart.json"));
+  for (const name of ["atlas.json", "cells.json", "pictures"]) cpSync(join(scratch, "atlas", name), join(scratch, "all", name), { recursive: true });
   run("calibrate", "board.csv", "--camera-size", "1280x1024", "--projector-size", "1024x768", "-o", "all/board.json");
   run("report", "all", "-o", "page.html");
-  run("report", "all", "-o", "static.html", "--static");
-  return JSON.parse(run("report", "all", "--json"));
+  run("report", "all", "-o", "static.html", "--static", "--figures", "figures");
+  const data = JSON.parse(run("report", "all", "--json"));
+  assert.deepEqual([data.result, data.board, data.chart, data.atlas.summary], ["result", "board", "chart", "atlas"].map((name) => json(`all/${name}.json`)));
+  return data;
 }
 
 const flags = ["--no-sandbox", "--disable-background-networking", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist"];
 
 // A page whose every complaint and request is kept.
-async function open(browser, name, options) {
-  const page = await browser.newPage({ viewport: { width: 1000, height: 1000 }, ...options });
+async function open(browser, name) {
+  const page = await browser.newPage({ viewport: { width: 900, height: 700 } });
   const complaints = [];
   page.on("console", (message) => ["error", "warning"].includes(message.type()) && !message.text().includes("GPU stall") && complaints.push(message.text()));
   page.on("pageerror", (error) => complaints.push(String(error)));
   page.on("request", (request) => /^(data|blob):/.test(request.url()) || request.url().endsWith(name) || complaints.push("request " + request.url()));
   await page.goto("file://" + join(scratch, name));
-  await page.waitForTimeout(700);
+  await page.waitForTimeout(300); // the 3D view draws with the first frame
   return { page, complaints };
 }
 
@@ -130,13 +164,44 @@ async function rigTurns(page) {
   const before = await picture();
   await page.focus("canvas.rig");
   await page.keyboard.press("ArrowLeft");
-  assert.notEqual(before, await picture());
+  const turned = await picture();
+  assert.notEqual(before, turned);
+  const box = await (await page.$("canvas.rig")).boundingBox();
+  await page.mouse.move(box.x + 200, box.y + 100);
+  await page.mouse.down();
+  await page.mouse.move(box.x + 300, box.y + 120, { steps: 3 });
+  await page.mouse.up();
+  assert.notEqual(turned, await picture());
 }
 
+// By the keyboard: a condition in the table behind the map, then its page with the picture and the command.
 async function cellOpens(page, data) {
-  await page.goto(page.url().split("#")[0] + "#cell-1");
+  const index = data.atlas.cells.findIndex((cell) => cell.kind === "pictures"), cell = data.atlas.cells[index];
+  await page.$$eval("#atlas details", (all) => all.forEach((e) => (e.open = true)));
+  await page.focus(`#atlas td a[href="#cell-${index}"], #atlas th a[href="#cell-${index}"]`);
+  await page.keyboard.press("Enter");
   await page.waitForSelector("#cell");
-  assert.ok((await page.textContent("#cell")).includes(data.atlas.cells[1].command));
+  assert.ok((await page.textContent("#cell")).includes(cell.command));
+  assert.equal(await page.$eval("#cell img", (image) => image.complete && image.naturalWidth), 400);
+  assert.equal(await page.evaluate(() => document.activeElement.id), "cell");
+  execFileSync("sh", ["-c", cell.command.replace(/^laterna/, `'${laterna}'`)], { cwd: scratch, stdio: "ignore" });
+}
+
+// Every figure is there as a file of its own.
+function figuresAreFiles() {
+  const names = readdirSync(join(scratch, "figures")).sort();
+  assert.deepEqual(names, ["atlas_laterna.svg", "atlas_opencv.svg", "chart.svg", "difference_left.svg", "frame_cam_left.png", "left_out_poses.svg", "lens_ladder.svg",
+    "map_projector_column_cam_left.png", "map_projector_row_cam_left.png", "map_standard_deviation_cam_left.png", "range_left.svg", "residual_histogram_cam_left.svg",
+    "residual_vectors_cam_left.svg", "rig.svg", "uncertainty_by_range.svg", "uncertainty_left.svg"]);
+  for (const name of names.filter((n) => n.endsWith(".svg"))) assert.ok(!/nan|inf[^o]/.test(readFileSync(join(scratch, "figures", name), "utf8")), name);
+}
+
+async function prints(page) {
+  await page.emulateMedia({ media: "print" });
+  const seen = (selector) => page.$eval(selector, (e) => getComputedStyle(e).display !== "none");
+  assert.deepEqual([await seen("nav"), await seen(".save"), await seen("main")], [false, false, true]);
+  assert.equal(await page.evaluate(() => getComputedStyle(document.body).backgroundColor), "rgb(255, 255, 255)");
+  await page.pdf({ path: join(scratch, "print.pdf"), format: "A4" });
 }
 
 async function readable(page) {
@@ -146,29 +211,50 @@ async function readable(page) {
   assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), "wider than the window");
 }
 
+async function darkIsDark(page) {
+  await page.emulateMedia({ colorScheme: "dark" });
+  const paper = await page.evaluate(() => getComputedStyle(document.body).backgroundColor);
+  assert.ok(paper.match(/\d+/g).every((level) => Number(level) < 64), paper);
+}
+
+async function wholePage(browser, data) {
+  const { page, complaints } = await open(browser, "page.html");
+  const keep = (name) => page.screenshot({ path: join(scratch, name), fullPage: true });
+  try {
+    const ids = await page.$$eval("main > section", (all) => all.map((e) => e.id));
+    assert.deepEqual(ids, ["summary", "pictures", "rig", "residuals", "projection", "board", "chart", "atlas"]);
+    await numbersEqual(page, data);
+    await figuresDraw(page);
+    await readable(page);
+    await sliderMoves(page);
+    await rigTurns(page);
+    await cellOpens(page, data);
+    if (screenshots) await keep("light.png");
+    await darkIsDark(page);
+    if (screenshots) await keep("dark.png");
+    await prints(page);
+    assert.deepEqual(complaints, []);
+  } catch (error) {
+    await keep("failed.png");
+    throw error;
+  }
+}
+
+async function staticPage(browser) {
+  const { page, complaints } = await open(browser, "static.html");
+  assert.ok((await page.$$("svg")).length >= 12);
+  assert.ok((await page.textContent("p")).includes("static figures"));
+  assert.equal((await page.$$("script")).length, 0);
+  assert.deepEqual(complaints, []);
+  if (screenshots) await page.screenshot({ path: join(scratch, "static.png"), fullPage: true });
+}
+
 const data = gather();
 const browser = await chromium.launch({ executablePath: chromiumPath, args: flags });
 try {
-  const { page, complaints } = await open(browser, "page.html");
-  const ids = await page.$$eval("main > section", (all) => all.map((e) => e.id));
-  assert.deepEqual(ids, ["summary", "pictures", "rig", "residuals", "projection", "board", "chart", "atlas"]);
-  await numbersEqual(page, data);
-  await figuresDraw(page);
-  await readable(page);
-  await page.screenshot({ path: join(scratch, "light.png"), fullPage: true });
-  await sliderMoves(page);
-  await rigTurns(page);
-  await cellOpens(page, data);
-  assert.deepEqual(complaints, []);
-  const dark = await open(browser, "page.html", { colorScheme: "dark" });
-  const paper = await dark.page.evaluate(() => getComputedStyle(document.body).backgroundColor);
-  assert.ok(paper.match(/\d+/g).every((level) => Number(level) < 64), paper);
-  await dark.page.screenshot({ path: join(scratch, "dark.png"), fullPage: true });
-  const still = await open(browser, "static.html");
-  assert.ok((await still.page.$$("svg")).length >= 5);
-  assert.equal((await still.page.$$("script")).length, 0);
-  assert.deepEqual([...dark.complaints, ...still.complaints], []);
-  await still.page.screenshot({ path: join(scratch, "static.png"), fullPage: true });
+  await wholePage(browser, data);
+  await staticPage(browser);
+  figuresAreFiles();
 } finally {
   await browser.close();
 }

@@ -561,7 +561,8 @@ TEST(SceneFile, ASelfContainedCopyCanBeMoved) {
 
 TEST(SceneFile, OverridesSetKeysByPath) {
   const std::string text =
-      "[[mesh]]\nshape = \"plane\"\n[[mesh]]\nshape = \"box\"\n[[camera]]\nsize = [8, 6]\nfx = 9\nposition = [0, 0, 1]\nlook_at = [0, 0, 0]\nup = [0, 1, 0]\n";
+      "[[mesh]]\nshape = \"plane\"\n[[mesh]]\nshape = \"box\"\n[[camera]]\nsize = [8, 6]\nfx = 9\nposition = "
+      "[0, 0, 1]\nlook_at = [0, 0, 0]\nup = [0, 1, 0]\n";
   const auto with = [&](const std::vector<std::string>& overrides) {
     return parse_scene(text, "s.toml", overrides);
   };

@@ -1,9 +1,13 @@
 #include "apps/lab/atlas/atlas.h"
 
 #include "apps/lab/atlas/cell_kinds.h"
-#include "apps/lab/grid_file.h"
+#include "apps/lab/cell_seed.h"
+#include "apps/lab/grid_settings.h"
+#include "apps/lab/json_number.h"
+#include "apps/lab/shell_word.h"
 #include "calib/median.h"
 #include "sim/error.h"
+#include "sim/image_file.h"
 #include "sim/text_file.h"
 
 #include <fmt/format.h>
@@ -30,33 +34,10 @@ struct GridSettings {
 
 GridSettings settings_of(const Grid& grid, const CellKind& kind) {
   GridSettings s;
-  const auto whole = [&](const char* key, int value) {
-    if (!grid.settings.contains(key)) return value;
-    const Json& given = grid.settings[key];
-    if (!given.is_number_integer() || given.get<long>() < 1 || given.get<long>() > 1000000)
-      throw InputError(
-          fmt::format("{}: {} is {}, expected a whole number from 1", grid.place, key, given.dump()));
-    return given.get<int>();
-  };
-  const auto flag = [&](const char* key) {
-    if (grid.settings.contains(key) && !grid.settings[key].is_boolean())
-      throw InputError(
-          fmt::format("{}: {} is {}, expected true or false", grid.place, key, grid.settings[key].dump()));
-    return grid.settings.value(key, false);
-  };
-  s.seeds = whole("seeds", s.seeds), s.peer_seeds = whole("peer_seeds", s.peer_seeds);
-  s.hidden = flag("hidden"), s.is_long = flag("long");
-  if (grid.settings.contains("methods")) {
-    const Json& given = grid.settings["methods"];
-    s.methods = given.is_string() ? std::vector{given.get<std::string>()} : std::vector<std::string>{};
-    if (given.is_array())
-      for (const Json& name : given)
-        s.methods.push_back(name.is_string() ? name.get<std::string>() : name.dump());
-  }
-  for (const std::string& method : s.methods)
-    if (std::find(kind.methods.begin(), kind.methods.end(), method) == kind.methods.end())
-      throw InputError(fmt::format("{}: no method \"{}\" for {}, expected some of {}", grid.place, method,
-                                   kind.name, fmt::join(kind.methods, ", ")));
+  s.seeds = count_setting(grid, "seeds", s.seeds),
+  s.peer_seeds = count_setting(grid, "peer_seeds", s.peer_seeds);
+  s.hidden = flag_setting(grid, "hidden"), s.is_long = flag_setting(grid, "long");
+  s.methods = methods_setting(grid, kind.methods);
   return s;
 }
 
@@ -86,24 +67,10 @@ void plan_grid(const Grid& grid, const std::filesystem::path& folder, const Atla
   }
 }
 
-// Fowler, Noll and Vo's hash, so that a cell's seeds are the same on every platform.
-std::uint64_t hash_of(std::string_view text) {
-  std::uint64_t hash = 14695981039346656037U;
-  for (const char c : text) hash = (hash ^ std::uint8_t(c)) * 1099511628211U;
-  return hash;
-}
-
-std::uint64_t seed_of(const AtlasCell& cell, std::uint64_t seed, int k) {
-  std::seed_seq sequence{std::uint32_t(hash_of(cell.name)), std::uint32_t(hash_of(cell.name) >> 32),
-                         std::uint32_t(seed), std::uint32_t(seed >> 32), std::uint32_t(k)};
-  std::array<std::uint32_t, 2> words{};
-  sequence.generate(words.begin(), words.end());
-  return std::uint64_t(words[0]) << 32 | words[1];
-}
-
 Graded try_one(const Planned& planned, std::uint64_t seed) {
   try {
-    return planned.trial(planned.cell.method, seed);
+    const CellProblem problem = planned.trial(seed);
+    return graded(problem.solve(planned.cell.method), problem);
   } catch (const std::exception& error) {
     return {Outcome::crashed, NAN, NAN, error.what()};
   }
@@ -131,14 +98,32 @@ std::string without_numbers(const std::string& text) {
   return plain;
 }
 
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+// The picture of the first seed that fared worst, under the folder; empty where there is none.
+std::string write_cell_picture(const Planned& planned, std::uint64_t seed, const std::string& letters,
+                               const std::filesystem::path& folder) {
+  if (planned.cell.kind != "pictures") return {};
+  const auto rank = [](char letter) { return outcome_letters.find(letter); };
+  const auto worst =
+      std::max_element(letters.begin(), letters.end(), [&](char a, char b) { return rank(a) < rank(b); });
+  try {
+    const CellProblem problem =
+        planned.trial(cell_seed(planned.cell.name, seed, int(worst - letters.begin())));
+    const std::string file =
+        fmt::format("pictures/{:016x}.png", hash_of(planned.cell.method + ": " + planned.cell.name));
+    std::filesystem::create_directories(folder / "pictures");
+    write_picture(folder / file, problem.picture());
+    return file;
+  } catch (const std::exception&) {
+    return {};  // a crash is told by its letter and reason
+  }
+}
 
-Json run_cell(const Planned& planned, std::uint64_t seed) {
+Json run_cell(const Planned& planned, std::uint64_t seed, const std::filesystem::path& folder) {
   std::string letters;
   std::vector<double> errors, predictions;
   std::map<std::string, int> reasons;
   for (int k = 0; k < planned.seeds; ++k) {
-    const Graded graded = try_one(planned, seed_of(planned.cell, seed, k));
+    const Graded graded = try_one(planned, cell_seed(planned.cell.name, seed, k));
     letters += outcome_letters[std::size_t(graded.outcome)];
     if (std::isfinite(graded.error_px)) errors.push_back(graded.error_px);
     if (std::isfinite(graded.predicted_px)) predictions.push_back(graded.predicted_px);
@@ -148,10 +133,13 @@ Json run_cell(const Planned& planned, std::uint64_t seed) {
   std::stable_sort(sorted.begin(), sorted.end(),
                    [](const auto& a, const auto& b) { return a.second > b.second; });
   sorted.resize(std::min<std::size_t>(sorted.size(), 3));
-  return {{"letters", letters},
-          {"error_px", errors.empty() ? Json(nullptr) : number(median(errors))},
-          {"predicted_px", predictions.empty() ? Json(nullptr) : number(median(predictions))},
-          {"reasons", sorted}};
+  Json cell{{"letters", letters},
+            {"error_px", errors.empty() ? Json(nullptr) : finite_or_null(median(errors))},
+            {"predicted_px", predictions.empty() ? Json(nullptr) : finite_or_null(median(predictions))},
+            {"reasons", sorted}};
+  const std::string picture = write_cell_picture(planned, seed, letters, folder);
+  if (!picture.empty()) cell["picture"] = picture;
+  return cell;
 }
 
 void fill(AtlasCell& cell, const JobOutcome& outcome, int seeds) {
@@ -159,12 +147,11 @@ void fill(AtlasCell& cell, const JobOutcome& outcome, int seeds) {
     cell.letters = std::string(std::size_t(seeds), outcome_letters[std::size_t(Outcome::crashed)]);
     cell.reasons = {{outcome.crashed, seeds}};
   } else {
-    const auto value = [&](const char* key) {
-      return outcome.result[key].is_null() ? NAN : outcome.result[key].get<double>();
-    };
     cell.letters = outcome.result["letters"].get<std::string>();
-    cell.error_px = value("error_px"), cell.predicted_px = value("predicted_px");
+    cell.error_px = number_or_nan(outcome.result, "error_px");
+    cell.predicted_px = number_or_nan(outcome.result, "predicted_px");
     cell.reasons = outcome.result["reasons"].get<std::vector<std::pair<std::string, int>>>();
+    cell.picture = outcome.result.value("picture", "");
   }
   for (const char letter : cell.letters) ++cell.counts[outcome_letters.find(letter)];
 }
@@ -197,15 +184,15 @@ Atlas run_atlas(const std::filesystem::path& specification, const std::filesyste
   if (planned.empty()) throw InputError(specification.string() + ": no cell matches what is asked for");
   std::vector<Job> jobs;
   for (const Planned& p : planned)
-    jobs.push_back(
-        {p.cell.method + ": " + p.cell.name, [&p, &options] { return run_cell(p, options.seed); }});
+    jobs.push_back({p.cell.method + ": " + p.cell.name,
+                    [&p, &options, &folder] { return run_cell(p, options.seed, folder); }});
   const RunOutcome run = run_jobs(jobs,
                                   {.folder = folder,
                                    .fingerprint = fingerprint(text, options),
                                    .resume = options.resume,
                                    .noun = "cells"},
                                   progress);
-  Atlas atlas{{}, run.interrupted, run.done, jobs.size()};
+  Atlas atlas{{}, run.interrupted, run.done, jobs.size(), options.seed};
   for (std::size_t k = 0; k < planned.size(); ++k) {
     if (!run.jobs[k].done) continue;
     fill(planned[k].cell, run.jobs[k], planned[k].seeds);
@@ -251,6 +238,24 @@ Json atlas_summary(const Atlas& atlas) {
   return json;
 }
 
+Json atlas_letters(const Atlas& atlas) {
+  Json letters = Json::object();
+  for (const AtlasCell& cell : atlas.cells)
+    if (cell.method == "laterna") letters[cell.name] = cell.letters;
+  return letters;
+}
+
+namespace {
+
+std::string command_of(const AtlasCell& cell, const std::string& specification, std::uint64_t seed) {
+  const std::string words = seed == 1 ? "" : fmt::format(" --seed {}", seed);
+  return fmt::format("laterna atlas {} --cell {} --method {}{} -o {}", shell_word(specification),
+                     shell_word(cell.name), cell.method, words,
+                     folder_name(cell.method + ": " + cell.name, "cell"));
+}
+
+}  // namespace
+
 Json atlas_cells(const Atlas& atlas, const std::string& specification) {
   Json cells = Json::array();
   for (const AtlasCell& c : atlas.cells) {
@@ -262,11 +267,11 @@ Json atlas_cells(const Atlas& atlas, const std::string& specification) {
                  {"values", c.values},
                  {"hidden", c.hidden},
                  {"letters", c.letters},
-                 {"error_px", number(c.error_px)},
-                 {"predicted_px", number(c.predicted_px)},
+                 {"error_px", finite_or_null(c.error_px)},
+                 {"predicted_px", finite_or_null(c.predicted_px)},
                  {"reasons", c.reasons},
-                 {"command",
-                  fmt::format("laterna atlas {} --cell '{}' --method {}", specification, c.name, c.method)}});
+                 {"command", command_of(c, specification, atlas.seed)}});
+    if (!c.picture.empty()) json["picture"] = c.picture;
     cells.push_back(std::move(json));
   }
   return cells;

@@ -15,10 +15,10 @@ namespace laterna {
 struct AtlasOptions {
   std::uint64_t seed = 1;  ///< all seeds of cells are drawn from it and the cell's name
   bool resume = false;
-  bool long_run = false;             ///< also grids with `long = true`
-  std::vector<std::string> methods;  ///< only these; empty: those of each grid
-  std::string cell;                  ///< only the cells whose name begins with it; empty: all
-  int sample = 0;                    ///< so many cells drawn at random by `seed`; 0: all
+  bool long_run = false;               ///< also grids with `long = true`
+  std::vector<std::string> methods{};  ///< only these; empty: those of each grid
+  std::string cell{};                  ///< only the cells whose name begins with it; empty: all
+  int sample = 0;                      ///< so many cells drawn at random by `seed`; 0: all
 };
 
 /// One condition under one method.
@@ -30,12 +30,14 @@ struct AtlasCell {
   std::string letters;                               ///< one outcome per seed (outcome_letters)
   double error_px = NAN, predicted_px = NAN;         ///< medians over the seeds that answered
   std::vector<std::pair<std::string, int>> reasons;  ///< numbers left out, most frequent first, at most 3
+  std::string picture{};  ///< of the first seed that fared worst: a PNG in the folder; empty: none
 };
 
 struct Atlas {
   std::vector<AtlasCell> cells;  ///< in the order of the specification, method by method
   bool interrupted = false;
   std::size_t done = 0, all = 0;
+  std::uint64_t seed = 1;
 };
 
 /// Runs the cells of a specification: grids (grid_file.h) of the kinds of cell_kinds.h, with the settings
@@ -57,8 +59,12 @@ Atlas run_atlas(const std::filesystem::path& specification, const std::filesyste
 /// fewest that one had.
 nlohmann::json atlas_summary(const Atlas& atlas);
 
+/// {CELL: letters} of Laterna's own method: what a later run is compared with.
+nlohmann::json atlas_letters(const Atlas& atlas);
+
 /// [{"grid", "cell", "kind", "method", "values", "hidden", "right", ..., "letters", "error_px",
-/// "predicted_px", "reasons": [[text, count]], "command"}]; `specification` is named in the commands.
+/// "predicted_px", "reasons": [[text, count]], "command"}], and "picture" where there is one; `specification`
+/// is named in the commands; each runs its cell alone, with the same seeds, in a folder of its own.
 nlohmann::json atlas_cells(const Atlas& atlas, const std::string& specification);
 
 /// The summary as a table, and Laterna's silently wrong and crashed cells by name.

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <memory>
 #include <numeric>
 
 namespace laterna {
@@ -21,37 +22,47 @@ BoardOptions options_of(const BoardCondition& c) {
   return options;
 }
 
-Graded by_laterna(const BoardProblem& problem, const BoardCondition& c) {
-  const BoardCalibration calibration = calibrate_boards(problem.capture, options_of(c));
-  Graded graded{Outcome::refused, NAN, NAN, calibration.reason};
-  if (calibration.status == Status::refused) return graded;
+CellAnswer by_laterna(const BoardProblem& problem, const BoardCondition& c) {
+  CellAnswer answer;
+  const BoardCalibration calibration =
+      answer.times.measure("solve", [&] { return calibrate_boards(problem.capture, options_of(c)); });
+  answer.status = calibration.status, answer.reason = calibration.reason;
+  if (calibration.status == Status::refused) return answer;
   const RigFit& fit = calibration.ladder.fit;
   // Poses of the capture that were used; their labels are their indices.
-  graded.error_px = board_volume_error_px(problem, fit.model, fit.adjustment.rig, fit.capture.pose_labels);
-  graded.predicted_px = std::max(calibration.diagnosis.predicted_volume_rms_px,
+  answer.error_px = board_volume_error_px(problem, fit.model, fit.adjustment.rig, fit.capture.pose_labels);
+  answer.predicted_px = std::max(calibration.diagnosis.predicted_volume_rms_px,
                                  calibration.diagnosis.jackknife_volume_rms_px.value_or(0));
-  graded.outcome = grade(calibration.status, graded.error_px, graded.predicted_px);
-  return graded;
+  return answer;
 }
 
-Graded by_peer(const BoardProblem& problem, const BoardCondition& c, const std::string& name) {
+CellAnswer by_peer(const BoardProblem& problem, const BoardCondition& c, const std::string& name) {
   RigModel model;
   model.devices.assign(2, model_of_terms(lens_terms(c.lens == "auto" ? "k1k2p1p2" : c.lens)));
   for (const BoardMethod& method : board_methods()) {
     if (method.name != name) continue;
+    CellAnswer answer;
     try {
-      const BoardRig rig = method.solve(problem.capture, model);
+      const BoardRig rig =
+          answer.times.measure("solve", [&] { return method.solve(problem.capture, model); });
       std::vector<int> poses(rig.camera_from_board.size());
       std::iota(poses.begin(), poses.end(), 0);
-      Graded graded{Outcome::right, board_volume_error_px(problem, model, rig, poses),
-                    board_volume_bound_px(problem), ""};
-      graded.outcome = grade(Status::ok, graded.error_px, graded.predicted_px);
-      return graded;
+      answer.error_px = board_volume_error_px(problem, model, rig, poses);
+      answer.status = Status::ok;
     } catch (const Refusal& refusal) {
-      return {Outcome::refused, NAN, NAN, refusal.what()};
+      answer.reason = refusal.what();
     }
+    return answer;
   }
   throw InputError(fmt::format("no method \"{}\" for boards", name));
+}
+
+CellProblem problem_of(const BoardCondition& c, std::uint64_t seed) {
+  const auto problem = std::make_shared<const BoardProblem>(board_problem(c, seed));
+  return {[problem, c](const std::string& method) {
+            return method == "laterna" ? by_laterna(*problem, c) : by_peer(*problem, c, method);
+          },
+          [problem] { return board_volume_bound_px(*problem); }};
 }
 
 }  // namespace
@@ -67,11 +78,7 @@ CellKind board_cells() {
             } catch (const InputError& error) {
               throw InputError(fmt::format("{}: {}", place, error.what()));
             }
-            return CellTrial([condition](const std::string& method, std::uint64_t seed) {
-              const BoardProblem problem = board_problem(condition, seed);
-              return method == "laterna" ? by_laterna(problem, condition)
-                                         : by_peer(problem, condition, method);
-            });
+            return CellTrial([condition](std::uint64_t seed) { return problem_of(condition, seed); });
           }};
 }
 

@@ -8,6 +8,14 @@
 
 namespace laterna {
 
+Graded graded(const CellAnswer& answer, const CellProblem& problem) {
+  Graded g{Outcome::refused, answer.error_px, NAN, answer.reason};
+  if (answer.status == Status::refused) return g;
+  g.predicted_px = answer.predicted_px ? *answer.predicted_px : problem.bound_px();
+  g.outcome = grade(answer.status, g.error_px, g.predicted_px);
+  return g;
+}
+
 const CellKind& cell_kind(const std::string& name, const std::string& place) {
   static const std::array kinds{point_cells(), board_cells(), picture_cells()};
   for (const CellKind& kind : kinds)

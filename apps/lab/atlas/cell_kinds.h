@@ -2,19 +2,45 @@
 #pragma once
 
 #include "apps/lab/atlas/outcome.h"
+#include "apps/lab/simulation.h"
 
 #include <nlohmann/json.hpp>
 
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace laterna {
 
-/// Solves one cell's problem of one seed by one method and holds the answer against the truth.
-using CellTrial = std::function<Graded(const std::string& method, std::uint64_t seed)>;
+/// What a method makes of one problem, and how far it is from the truth. Errors are NaN where refused.
+struct CellAnswer {
+  Status status = Status::refused;
+  std::string reason;                    ///< the method's own
+  double error_px = NAN;                 ///< of the volume, rms, projector pixels
+  double error_mm = NAN;                 ///< pictures: of the light on the lit surface, rms, across the ray
+  std::optional<double> predicted_px;    ///< of error_px, by the method itself; none: it makes no prediction
+  std::optional<double> independent_px;  ///< pictures: SolveResult::predicted_volume_rms_independent_px
+  int pictures = 0;                      ///< that its projectors showed
+  StageTimes times{};                    ///< without what only holds the answer against the truth
+};
+
+/// One problem of a cell. Solving it again gives the same answer in other times.
+struct CellProblem {
+  std::function<CellAnswer(const std::string& method)> solve;
+  std::function<double()> bound_px;  ///< what noise alone does to error_px (Cramér-Rao); NaN: not known
+  /// To look at: what the first camera saw in white light, and beside it the columns that were decoded, in
+  /// viridis; only pictures have one.
+  std::function<Image<glm::u8vec3>()> picture{};
+};
+
+/// The answer under the five outcomes; where the method makes no prediction, the bound is held against it.
+Graded graded(const CellAnswer& answer, const CellProblem& problem);
+
+/// One cell's problem of one seed.
+using CellTrial = std::function<CellProblem(std::uint64_t seed)>;
 
 struct CellKind {
   std::string name;

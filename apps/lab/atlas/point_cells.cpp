@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include <memory>
+
 namespace laterna {
 
 namespace {
@@ -25,18 +27,24 @@ SolveOptions options_of(const PointCondition& c) {
   return options;
 }
 
-Graded solve_one(const PointCondition& c, const std::string& method, std::uint64_t seed) {
-  const PointProblem problem = point_problem(c, seed);
+CellAnswer solve_one(const PointProblem& problem, const std::string& method, const SolveOptions& options) {
+  CellAnswer answer;
+  const PointAnswer given = answer.times.measure("solve", [&] {
+    return solve_points(method, problem.correspondences, problem.truth.intrinsics.size, options);
+  });
+  answer.status = given.status, answer.reason = given.reason;
+  if (given.status == Status::refused) return answer;
+  answer.error_px = verify(problem.truth, given.estimate, {}, problem.lit_points).volume.rms;
+  if (method == "laterna") answer.predicted_px = given.predicted_px;
+  return answer;
+}
+
+CellProblem problem_of(const PointCondition& c, std::uint64_t seed) {
+  const auto problem = std::make_shared<const PointProblem>(point_problem(c, seed));
   SolveOptions options = options_of(c);
   options.seed = seed;
-  const PointAnswer answer =
-      solve_points(method, problem.correspondences, problem.truth.intrinsics.size, options);
-  Graded graded{Outcome::refused, NAN, NAN, answer.reason};
-  if (answer.status == Status::refused) return graded;
-  graded.error_px = verify(problem.truth, answer.estimate, {}, problem.lit_points).volume.rms;
-  graded.predicted_px = method == "laterna" ? answer.predicted_px : volume_bound_px(problem, c);
-  graded.outcome = grade(answer.status, graded.error_px, graded.predicted_px);
-  return graded;
+  return {[problem, options](const std::string& method) { return solve_one(*problem, method, options); },
+          [problem, c] { return volume_bound_px(*problem, c); }};
 }
 
 }  // namespace
@@ -53,9 +61,7 @@ CellKind point_cells() {
             } catch (const InputError& error) {
               throw InputError(fmt::format("{}: {}", place, error.what()));
             }
-            return CellTrial([condition](const std::string& method, std::uint64_t seed) {
-              return solve_one(condition, method, seed);
-            });
+            return CellTrial([condition](std::uint64_t seed) { return problem_of(condition, seed); });
           }};
 }
 

@@ -142,8 +142,13 @@ double volume_bound_px(const PointProblem& problem, const PointCondition& c) {
   const WorldNormalisation n = normalisation_of(clean.world_points);
   ProjectorState state = state_of(model);
   state.device_from_points = device_from_normalised(model.device_from_world, n);
-  const auto covariance =
-      ceres_covariance(point_table(clean, n), LensGradient(model.lens.model), state, {{}, 0, double(size.x)});
+  const PointTable points = point_table(clean, n);
+  const LensGradient lens(model.lens.model);
+  const auto factor = row_factor(points, lens, state, {});
+  if (!factor) return NAN;
+  const auto singular = scaled_spectrum(*factor, lens.parameter_count() + 6).singular_values;
+  if (!(singular.back() > 1e-13 * singular.front())) return NAN;  // as solve() has it
+  const auto covariance = ceres_covariance(points, lens, state, {{}, 0, double(size.x)}, *factor);
   if (!covariance) return NAN;
   const auto volume = image_grid(model, volume_depths(depths_of(model, problem.lit_points)));
   return predicted_rms(model, world_covariance(*covariance, model.device_from_world, n), volume)

@@ -1,7 +1,9 @@
 #include "apps/lab/report/report_data.h"
 
+#include "apps/lab/chart/chart_report.h"
 #include "apps/lab/report/capture_figures.h"
 #include "apps/lab/report/report_verdicts.h"
+#include "apps/lab/report/thumbnails.h"
 #include "sim/error.h"
 #include "sim/plain_name.h"
 #include "sim/text_file.h"
@@ -54,9 +56,8 @@ void add_roundtrip(const fs::path& folder, Json& data) {
 
 void add_chart(const fs::path& file, Json& data) {
   data["chart"] = read_json(file);
-  expect_keys(data["chart"], file, {"points", "pareto"});
-  for (const Json& point : data["chart"]["points"])
-    expect_keys(point, file, {"label", "error_px", "bound_px", "seconds", "spread_px", "command"});
+  expect_keys(data["chart"], file, {"points", "pareto", "chart", "against"});
+  read_chart(data["chart"]);  // throws where a point is not whole
 }
 
 void add_atlas(const fs::path& folder, Json& data) {
@@ -67,6 +68,12 @@ void add_atlas(const fs::path& folder, Json& data) {
     expect_keys(cell, folder / "cells.json",
                 {"grid", "cell", "method", "values", "hidden", "letters", "error_px", "predicted_px",
                  "reasons", "command", "right", "weak", "refused", "silent", "crashed"});
+  for (Json& cell : data["atlas"]["cells"]) {
+    if (!cell.contains("picture")) continue;
+    const std::string picture = cell["picture"];
+    check_inner_path(picture, (folder / "cells.json").string());
+    cell["image"] = data_uri_of_file(folder / picture);
+  }
 }
 
 void add_file(const fs::path& file, Json& data) {

@@ -43,6 +43,13 @@ std::string script_json(const Json& data) {
   return safe;
 }
 
+// Four digits for people, all of them where a pointer rests.
+std::string number_element(const Json& value) {
+  const std::string whole = html_text(value.dump());
+  if (!value.is_number_float()) return whole;
+  return fmt::format("<data value=\"{0}\" title=\"{0}\">{1:.4g}</data>", whole, value.get<double>());
+}
+
 std::string verdict_rows(const Json& data) {
   std::string rows;
   for (const Json& v : data.at("verdicts")) {
@@ -50,45 +57,27 @@ std::string verdict_rows(const Json& data) {
                         html_text(v["status"].get<std::string>()), html_text(v["reason"].get<std::string>()));
     for (const Json& fact : v["facts"])
       rows += fmt::format("<tr><th scope=\"row\">{}</th><td>{} {}</td></tr>\n",
-                          html_text(fact["name"].get<std::string>()), html_text(fact["value"].dump()),
+                          html_text(fact["name"].get<std::string>()), number_element(fact["value"]),
                           html_text(fact["unit"].get<std::string>()));
     rows += "</table>\n";
   }
   return rows;
 }
 
-std::string image_figure(const std::string& caption, const Json& image) {
-  return fmt::format("<figure><img src=\"{}\" alt=\"{}\"><figcaption>{}</figcaption></figure>\n",
-                     html_text(image.get<std::string>()), html_text(caption), html_text(caption));
+std::string figure_element(const StaticFigure& figure) {
+  const std::string caption = html_text(figure.caption);
+  const std::string drawn = figure.svg.empty()
+                                ? fmt::format("<img src=\"{}\" alt=\"{}\">", html_text(figure.image), caption)
+                                : figure.svg;
+  return fmt::format("<figure>{}<figcaption>{}</figcaption></figure>\n", drawn, caption);
 }
 
-std::string view_figures(const Json& data) {
-  std::string text;
-  for (const Json& view : data.value("views", Json::array())) {
-    const std::string of = fmt::format("\"{}\" seen by \"{}\"", view["projector"].get<std::string>(),
-                                       view["camera"].get<std::string>());
-    if (view["frames"].size() >= 2)
-      text +=
-          image_figure(of + ": white frame as captured", view["frames"][view["frames"].size() - 2]["image"]);
-    for (const Json& map : view["maps"])
-      text += image_figure(fmt::format("{}: {}, {} to {} {}", of, map["label"].get<std::string>(),
-                                       map["low"].dump(), map["high"].dump(), map["unit"].get<std::string>()),
-                           map["image"]);
-  }
-  return text;
-}
-
-std::string static_page(const Json& data) {
-  std::string text = head(data, style) + fmt::format("<body>\n<main>\n<h1>{}</h1>\n",
-                                                     html_text(data.at("title").get<std::string>()));
-  text +=
-      "<p>These are static figures: this Laterna was built without Node, so the page has no slider, no 3D "
-      "view "
-      "and no charts to explore.</p>\n<h2>Verdict</h2>\n" +
-      verdict_rows(data) + "<h2>Pictures and maps</h2>\n" + view_figures(data) + "<h2>Figures</h2>\n";
-  for (const StaticFigure& figure : static_figures(data))
-    text += fmt::format("<figure>{}<figcaption>{}</figcaption></figure>\n", figure.svg,
-                        html_text(figure.caption));
+std::string static_page(const Json& data, const std::string& why) {
+  std::string text = head(data, style) +
+                     fmt::format("<body>\n<main>\n<h1>{}</h1>\n<p>{}</p>\n<h2>Verdict</h2>\n{}",
+                                 html_text(data.at("title").get<std::string>()), why, verdict_rows(data));
+  text += "<h2>Figures</h2>\n";
+  for (const StaticFigure& figure : static_figures(data)) text += figure_element(figure);
   return text + "</main>\n</body>\n</html>\n";
 }
 
@@ -130,8 +119,15 @@ std::string html_text(const std::string& text) {
   return safe;
 }
 
+std::string static_report_page(const Json& data, StaticReason reason) {
+  return static_page(
+      data, reason == StaticReason::asked
+                ? "These are static figures, as was asked for: no slider, no 3D view, no charts to explore."
+                : "These are static figures: this Laterna was built without Node, so the page has no slider, "
+                  "no 3D view and no charts to explore.");
+}
+
 std::string report_page(const Json& data, const fs::path& bundle) {
-  if (bundle.empty()) return static_page(data);
   const std::string script = read_text(bundle, std::size_t(64) << 20);
   return head(data, "") +
          "<body>\n<noscript><p>This page draws its figures with a script, which is switched off here; "

@@ -12,10 +12,14 @@ namespace laterna {
 /// folder (../report) or installed (../share/laterna). Empty where it is in neither.
 std::filesystem::path report_bundle();
 
-/// The page of report_data(): with the bundle, the data and a script that draws them; where `bundle` is
-/// empty, the same numbers with static SVG figures (static_figures.h) and a sentence that says so. Nothing is
-/// loaded from elsewhere. Throws InputError where the bundle cannot be read.
+/// The page of report_data(): the data, and the bundle's script that draws them. Nothing is loaded from
+/// elsewhere. Throws InputError where the bundle cannot be read.
 std::string report_page(const nlohmann::json& data, const std::filesystem::path& bundle);
+
+enum class StaticReason { asked, no_bundle };
+
+/// The same verdicts with static figures (static_figures.h), without a script, and a sentence that says why.
+std::string static_report_page(const nlohmann::json& data, StaticReason reason);
 
 /// Text for HTML: & < > " ' escaped.
 std::string html_text(const std::string& text);

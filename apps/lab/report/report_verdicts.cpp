@@ -49,6 +49,9 @@ Json chart_verdict(const Json& chart) {
   Json facts = Json::array();
   add_fact(facts, "points", chart.at("points").size(), "");
   add_fact(facts, "on the Pareto front", chart.at("pareto").size(), "");
+  for (const Json& p : chart["points"])  // the front ends with the least error
+    if (!chart["pareto"].empty() && p.at("label") == chart["pareto"].back())
+      add_fact(facts, "least error", p.at("error_px"), "px rms");
   return {{"of", "speed against accuracy"}, {"status", ""}, {"reason", ""}, {"facts", facts}};
 }
 

@@ -1,13 +1,21 @@
 #include "apps/lab/report/static_figures.h"
 
+#include "apps/lab/chart/chart_report.h"
+#include "apps/lab/chart/chart_svg.h"
+#include "apps/lab/report/board_figures.h"
+#include "apps/lab/report/svg_atlas.h"
 #include "apps/lab/report/svg_chart.h"
+#include "apps/lab/report/svg_maps.h"
+#include "apps/lab/report/svg_rig.h"
+#include "apps/lab/report/thumbnails.h"
+#include "sim/error.h"
+#include "sim/plain_name.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
+#include <cctype>
 #include <cmath>
-#include <map>
 
 namespace laterna {
 
@@ -16,109 +24,119 @@ using Json = nlohmann::json;
 namespace {
 
 // Okabe and Ito's colours, which the colour-blind tell apart.
-constexpr const char *blue = "#0072B2", *vermilion = "#D55E00", *sky = "#56B4E9", *green = "#009E73",
-                     *orange = "#E69F00", *purple = "#CC79A7";
+constexpr const char *blue = "#0072B2", *vermilion = "#D55E00", *sky = "#56B4E9", *orange = "#E69F00";
 
-double value(const Json& json) { return json.is_number() ? json.get<double>() : NAN; }
+double value(const Json& json) { return json.is_number() ? json.get<double>() : double(NAN); }
 
 std::string text(const Json& json) { return json.get<std::string>(); }
+
+std::string of_view(const Json& j) {
+  return fmt::format("\"{}\" seen by \"{}\"", text(j["projector"]), text(j["camera"]));
+}
+
+// Letters and digits, anything else as one underline.
+std::string plain(const std::string& words) {
+  std::string name;
+  for (const char c : words) {
+    if (std::isalnum(static_cast<unsigned char>(c)))
+      name += c;
+    else if (!name.empty() && name.back() != '_')
+      name += '_';
+  }
+  return name;
+}
+
+void add_pictures(const Json& view, std::vector<StaticFigure>& figures) {
+  const std::string stem = fmt::format("{}_{}", text(view["camera"]), text(view["projector"]));
+  for (const Json& frame : view["frames"])
+    if (frame["label"] == "white")
+      figures.push_back(
+          {"frame_" + stem, of_view(view) + ": the white frame as captured", "", text(frame["image"])});
+  for (const Json& map : view["maps"])
+    figures.push_back(
+        {fmt::format("map_{}_{}", text(map["label"]), stem),
+         fmt::format("{}: {}, from {:.4g} (violet) to {:.4g} (yellow) {}; grey: none", of_view(view),
+                     text(map["label"]), value(map["low"]), value(map["high"]), text(map["unit"])),
+         "", text(map["image"])});
+}
 
 StaticFigure residual_histogram(const Json& r) {
   const Json &edges = r["histogram"]["edges_px"], &count = r["histogram"]["count"],
              &predicted = r["histogram"]["predicted"];
-  ChartSeries bars{ChartSeries::Kind::bars, "measured", sky, {}},
-      line{ChartSeries::Kind::line, "stated sigma", vermilion, {}};
+  SvgSeries bars{SvgSeries::Kind::bars, "measured", sky, {}},
+      line{SvgSeries::Kind::line, "stated standard deviations predict", vermilion, {}};
   for (std::size_t b = 0; b < count.size(); ++b) {
     const double middle = (value(edges[b]) + value(edges[b + 1])) / 2;
     bars.points.push_back({middle, value(count[b])});
     line.points.push_back({middle, value(predicted[b])});
   }
-  const std::string of = fmt::format("\"{}\" seen by \"{}\"", text(r["projector"]), text(r["camera"]));
-  return {fmt::format("residuals_{}_{}", text(r["camera"]), text(r["projector"])),
-          fmt::format("Residuals of {}, {:.4g} px rms", of, value(r["rms_px"])),
-          svg_chart({"Residuals of " + of, "du and dv, px", "count", false, false, {bars, line}})};
+  const std::string title = fmt::format("Residuals of {}, {:.4g} px rms", of_view(r), value(r["rms_px"]));
+  return {fmt::format("residual_histogram_{}_{}", text(r["camera"]), text(r["projector"])),
+          title + ", counted", svg_chart({title, "du and dv, px", "count", false, false, {bars, line}}), ""};
 }
 
 StaticFigure error_by_range(const Json& p) {
-  ChartSeries error{ChartSeries::Kind::points, "error against the truth", blue, {}},
-      predicted{ChartSeries::Kind::line, "noise predicts", orange, {}};
+  SvgSeries error{SvgSeries::Kind::points, "error against the truth", blue, {}},
+      predicted{SvgSeries::Kind::dashes, "noise predicts", orange, {}};
   for (const Json& row : p["by_range"]) {
     error.points.push_back({value(row["depth_m"]), value(row["error_rms_px"])});
     predicted.points.push_back({value(row["depth_m"]), value(row["predicted_rms_px"])});
   }
-  const std::string of = fmt::format("Error of \"{}\" by range", text(p["projector"]));
-  return {"range_" + text(p["projector"]), of,
-          svg_chart({of, "depth, m", "px rms over the image", true, true, {predicted, error}})};
+  const std::string title =
+      fmt::format("Error of \"{}\" by range, lit from {:.4g} to {:.4g} m", text(p["projector"]),
+                  value(p["lit_depths_m"][0]), value(p["lit_depths_m"][1]));
+  return {"range_" + text(p["projector"]), title,
+          svg_chart({title, "depth, m", "px rms over the image", true, true, {predicted, error}}), ""};
 }
 
-StaticFigure lens_ladder(const Json& board) {
-  ChartSeries all{ChartSeries::Kind::points, "tried", sky, {}},
-      chosen{ChartSeries::Kind::points, "chosen", vermilion, {}};
-  double rung = 0;
-  for (const Json& r : board["ladder"]) {
-    const Json& lenses = r["lenses"];
-    const std::string label = lenses.empty() ? "" : text(lenses[lenses.size() - 1]);
-    (r["chosen"].get<bool>() ? chosen : all)
-        .points.push_back({++rung, value(r["held_out_px"]["rms"]), label});
-  }
-  return {"lens_ladder", "Held-out error by lens, labelled by the projector's terms",
-          svg_chart({"Lens ladder", "rung", "held out, px rms", false, false, {all, chosen}})};
+glm::ivec2 size_of(const Json& rig, const Json& projector) {
+  for (const Json& p : rig["projectors"])
+    if (p["name"] == projector) return {p["size"][0].get<int>(), p["size"][1].get<int>()};
+  throw InputError("the figures' rig has no projector " + projector.dump());
 }
 
-StaticFigure speed_against_accuracy(const Json& chart) {
-  ChartSeries all{ChartSeries::Kind::points, "measured", blue, {}},
-      bound{ChartSeries::Kind::points, "bound", orange, {}},
-      front{ChartSeries::Kind::line, "Pareto front", vermilion, {}};
-  for (const Json& p : chart["points"]) {
-    all.points.push_back({value(p["seconds"]), value(p["error_px"]), text(p["label"])});
-    bound.points.push_back({value(p["seconds"]), value(p["bound_px"])});
-    const Json& pareto = chart["pareto"];
-    if (std::find(pareto.begin(), pareto.end(), p["label"]) != pareto.end())
-      front.points.push_back({value(p["seconds"]), value(p["error_px"])});
+void add_trial_figures(const Json& f, std::vector<StaticFigure>& figures) {
+  figures.push_back({"rig", "The rig: projectors (vermilion), cameras (blue), lit points (orange)",
+                     rig_svg(f["rig"], f["points"]), ""});
+  for (const Json& r : f["residuals"]) {
+    if (r.is_null()) continue;
+    figures.push_back({fmt::format("residual_vectors_{}_{}", text(r["camera"]), text(r["projector"])),
+                       fmt::format("Residual vectors of {}: colour is direction", of_view(r)),
+                       residual_vectors_svg(r, size_of(f["rig"], r["projector"])), ""});
+    figures.push_back(residual_histogram(r));
   }
-  std::sort(front.points.begin(), front.points.end(),
-            [](const ChartPoint& a, const ChartPoint& b) { return a.x < b.x; });
-  return {"pareto", "Speed against accuracy",
-          svg_chart({"Speed against accuracy", "seconds", "error, px rms", true, true, {front, bound, all}})};
-}
-
-// Shares of the outcomes, method by method, as stacked bars made of bars one over the other.
-StaticFigure outcomes_by_method(const Json& summary) {
-  const std::array<std::pair<const char*, const char*>, 5> words{
-      {{"right", green}, {"weak", orange}, {"refused", sky}, {"silent", vermilion}, {"crashed", purple}}};
-  Chart chart{"Outcomes by method", "", "share of problems", false, false, {}};
-  for (const auto& [word, colour] : words)
-    chart.series.push_back({ChartSeries::Kind::bars, word, colour, {}});
-  double at = 0;
-  for (const auto& [method, counts] : summary["methods"].items()) {
-    double all = 0, sum = 0;
-    for (const auto& [word, colour] : words) all += value(counts[word]);
-    chart.x_label += fmt::format("{}{}: {}", at > 0 ? ",  " : "", at, method);
-    for (std::size_t k = 0; k < words.size(); ++k) {
-      sum += value(counts[words[k].first]);
-      chart.series[k].points.push_back({at, all > 0 ? sum / all : NAN});
-    }
-    ++at;
+  for (const Json& p : f["projections"]) {
+    if (p.is_null()) continue;
+    const glm::ivec2 size = size_of(f["rig"], p["projector"]);
+    const std::string name = text(p["projector"]);
+    figures.push_back({"difference_" + name,
+                       fmt::format("Projection difference of \"{}\": recovered minus true", name),
+                       projection_map_svg(p, size, GridQuantity::difference), ""});
+    figures.push_back({"uncertainty_" + name, fmt::format("Uncertainty of \"{}\" by range", name),
+                       projection_map_svg(p, size, GridQuantity::sigma), ""});
+    figures.push_back(error_by_range(p));
   }
-  std::reverse(chart.series.begin(), chart.series.end());  // the tallest first, so that each stays in sight
-  return {"outcomes", "Outcomes by method", svg_chart(chart)};
 }
 
 }  // namespace
 
-std::vector<StaticFigure> static_figures(const Json& data) {
+std::string StaticFigure::file_bytes() const { return svg.empty() ? bytes_of_data_uri(image) : svg; }
+
+std::vector<StaticFigure> static_figures(const Json& data) try {
   std::vector<StaticFigure> figures;
-  if (data.contains("figures")) {
-    for (const Json& r : data["figures"]["residuals"])
-      if (!r.is_null()) figures.push_back(residual_histogram(r));
-    for (const Json& p : data["figures"]["projections"])
-      if (!p.is_null()) figures.push_back(error_by_range(p));
-  }
-  if (data.contains("board") && !data["board"]["ladder"].empty())
-    figures.push_back(lens_ladder(data["board"]));
-  if (data.contains("chart")) figures.push_back(speed_against_accuracy(data["chart"]));
-  if (data.contains("atlas")) figures.push_back(outcomes_by_method(data["atlas"]["summary"]));
+  for (const Json& view : data.value("views", Json::array())) add_pictures(view, figures);
+  if (data.contains("figures")) add_trial_figures(data["figures"], figures);
+  if (data.contains("board")) add_board_figures(data["board"], figures);
+  if (data.contains("chart"))
+    figures.push_back({"chart", "Speed against accuracy", chart_svg(read_chart(data["chart"])), ""});
+  if (data.contains("atlas"))
+    for (const std::string& method : methods_of(data["atlas"]["cells"]))
+      figures.push_back(
+          {"atlas_" + method, "Outcomes of method " + method, atlas_svg(data["atlas"]["cells"], method), ""});
+  for (StaticFigure& figure : figures) figure.name = plain(figure.name);
   return figures;
+} catch (const Json::exception& error) {
+  throw InputError("the figures' data are not as Laterna writes them: " + plain_json_message(error.what()));
 }
 
 }  // namespace laterna

@@ -1,6 +1,7 @@
 #include "apps/lab/report/thumbnails.h"
 
 #include "apps/lab/canvas.h"
+#include "sim/error.h"
 #include "sim/image_file.h"
 #include "sim/text_file.h"
 
@@ -15,6 +16,9 @@
 namespace laterna {
 
 namespace {
+
+constexpr std::string_view base64_letters =
+    "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 
 int box_side(int width, int most) { return std::max(1, (width + most - 1) / most); }
 
@@ -92,9 +96,25 @@ std::string data_uri_of_file(const std::string& path) {
   return "data:image/png;base64," + base64(read_text(path, std::size_t(64) << 20));
 }
 
+std::string bytes_of_data_uri(std::string_view uri) {
+  const std::size_t comma = uri.find(";base64,");
+  if (comma == std::string_view::npos) throw InputError("a picture that is no data URI");
+  std::string bytes;
+  std::uint32_t word = 0;
+  int bits = 0;
+  for (const char c : uri.substr(comma + 8)) {
+    const std::size_t value = base64_letters.find(c);
+    if (c == '=') break;
+    if (value == std::string_view::npos) throw InputError("a picture whose data URI is damaged");
+    word = word << 6 | std::uint32_t(value), bits += 6;
+    if (bits < 8) continue;
+    bits -= 8;
+    bytes += char(word >> bits & 255);
+  }
+  return bytes;
+}
+
 std::string base64(std::string_view bytes) {
-  static constexpr std::string_view letters =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string text;
   text.reserve((bytes.size() + 2) / 3 * 4);
   for (std::size_t i = 0; i < bytes.size(); i += 3) {
@@ -102,7 +122,7 @@ std::string base64(std::string_view bytes) {
     for (std::size_t k = 0; k < 3; ++k)
       word = word << 8 | (i + k < bytes.size() ? std::uint8_t(bytes[i + k]) : 0U);
     for (std::size_t k = 0; k < 4; ++k)
-      text += i + k > bytes.size() ? '=' : letters[word >> (18 - 6 * k) & 63];
+      text += i + k > bytes.size() ? '=' : base64_letters[word >> (18 - 6 * k) & 63];
   }
   return text;
 }

@@ -34,4 +34,7 @@ std::string data_uri_of_file(const std::string& path);
 /// RFC 4648, with padding.
 std::string base64(std::string_view bytes);
 
+/// The bytes that data_uri() encoded. Throws InputError where the text is none of its.
+std::string bytes_of_data_uri(std::string_view uri);
+
 }  // namespace laterna

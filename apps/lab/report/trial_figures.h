@@ -16,7 +16,8 @@ nlohmann::json device_figure(const Device& device);
 nlohmann::json rig_figure(const Scene& scene);
 
 /// One view's residuals e = decoded - projected by the estimate, projector pixels, of at most 20,000 valid
-/// pixels that see a surface, evenly spread: {"camera", "projector", "points", "used", "rms_px", "sigma_px",
+/// pixels that see a surface (`points_world`: what the solver was told of them, m, NaN for none), evenly
+/// spread: {"camera", "projector", "points", "used", "rms_px", "sigma_px",
 /// "sample": [[u, v, du, dv], ...], "histogram": {"edges_px", "count", "predicted"}}. The histogram counts du
 /// and dv together over ±4 rms(du, dv) in 40 bins; `predicted` is how many normal deviates of the stated
 /// standard deviations fall into each. null where nothing is valid.

@@ -11,7 +11,7 @@ export function outcomeOf(cell) {
 }
 
 const condition = (cell) => cell.cell.replace(`${cell.grid}: `, "");
-const methodsOf = (cells) => [...new Set(cells.map((cell) => cell.method))];
+const methodsOf = (cells) => [...new Set(cells.map((cell) => cell.method))].sort((a, b) => (b === "laterna") - (a === "laterna")); // its own first
 const link = (index) => `#cell-${index}`;
 
 // Cells of a grid side by side, at most `across` in a row.
@@ -54,17 +54,19 @@ function cellPage(data, cell) {
       h("dt", {}, "median error"), h("dd", {}, value("error_px"), " px rms over the volume"),
       h("dt", {}, "median prediction"), h("dd", {}, value("predicted_px"), " px rms"),
       h("dt", {}, "seed by seed"), h("dd", {}, h("code", {}, cell.letters))),
+    cell.image && h("figure", {}, h("img", { src: cell.image, alt: `What the camera of ${cell.cell} saw in white light, and beside it the columns that were decoded from it`, width: 640 }),
+      h("figcaption", {}, "Of the first seed that fared worst: what the camera saw in white light, and the columns that were decoded (grey: none).")),
     cell.reasons.length > 0 && h("div", {}, h("h4", {}, "What was said (numbers left out)"), h("ul", {}, cell.reasons.map(([text, n]) => h("li", {}, `${text} (${n} of ${cell.letters.length})`)))),
     h("h4", {}, "The same cell again"), h("p", {}, h("code", {}, cell.command)),
     h("p", {}, h("a", { href: "#atlas" }, "Back to the atlas"), " · ", h("a", { href: link((cell.index + 1) % data.atlas.cells.length) }, "Next cell")));
 }
 
-function methodMaps(data, cells, method) {
+function methodMaps(data, cells, method, where = "") {
   const mine = cells.filter((cell) => cell.method === method);
-  const behind = table(`Cells of ${method}`, [["condition", (cell) => h("a", { href: link(cell.index) }, cell.cell)], ["outcome", (cell) => outcomeWords[outcomeOf(cell)]],
+  const behind = table(`Cells of ${method}${where}`, [["condition", (cell) => h("a", { href: link(cell.index) }, cell.cell)], ["outcome", (cell) => outcomeWords[outcomeOf(cell)]],
     ["error, px", (cell) => number(data, ["atlas", "cells", cell.index, "error_px"])]], mine);
   return h("div", {}, h("h3", {}, `Method ${method}`),
-    figure(`Outcomes of method ${method}: one square per condition, by its worst seed where that is silent or crashed, else by most seeds`, heatMap(mine), behind));
+    figure(`Outcomes of method ${method}${where}: one square per condition, by its worst seed where that is silent or crashed, else by most seeds`, heatMap(mine), behind));
 }
 
 export function atlas(data) {
@@ -83,5 +85,5 @@ export function atlas(data) {
     key(), h("p", {}, "Choose a square, or a condition in the table behind it, for what happened there and the command that does it again."), stage,
     methodsOf(counted).map((method) => methodMaps(data, counted, method)),
     hidden.length > 0 && h("div", {}, h("h3", {}, "What no data can reveal"), h("p", {}, "Not counted: here a silently wrong answer is the only possible one."),
-      methodsOf(hidden).map((method) => methodMaps(data, hidden, method))));
+      methodsOf(hidden).map((method) => methodMaps(data, hidden, method, " where no data can tell"))));
 }

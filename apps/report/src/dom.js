@@ -30,10 +30,10 @@ export function number(data, path) {
   return h("data", { value: String(value), "data-path": JSON.stringify(path), title: String(value) }, format(value));
 }
 
-/** A table; `columns` are [heading, row => cell]. The first column heads its row. */
+/** A table; `columns` are [heading, row => cell, class or nothing]. The first column heads its row. */
 export function table(caption, columns, rows) {
   const cell = (column, index, row, k) =>
-    h(index === 0 ? "th" : "td", index === 0 ? { scope: "row" } : {}, column[1](row, k));
+    h(index === 0 ? "th" : "td", index === 0 ? { scope: "row" } : { class: column[2] }, column[1](row, k));
   return h("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": caption },
     h("table", {},
       h("caption", {}, caption),

@@ -15,7 +15,7 @@ function leafThrough(view, of) {
     slider.setAttribute("aria-valuetext", label.textContent);
   };
   const slider = h("input", { type: "range", id, min: 0, max: view.frames.length - 1, step: 1, oninput: show });
-  slider.value = view.frames.length > 2 ? view.frames.length - 2 : 0; // white
+  slider.value = Math.max(0, view.frames.findIndex((frame) => frame.label === "white"));
   const step = (by) => () => { slider.valueAsNumber += by; show(); };
   show();
   return h("figure", { class: "leaf" }, image,

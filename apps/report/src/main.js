@@ -29,7 +29,7 @@ const links = sections.map((section) => h("li", {}, h("a", { href: "#" + section
 document.head.append(h("style", {}, css));
 document.getElementById("report").replaceWith(
   h("a", { class: "skip", href: "#main" }, "Skip to the report"),
-  h("header", {}, h("h1", {}, data.title), h("p", {}, "A report by Laterna. Every number is that of the files; hover over one, or read its full digits from the saved JSON.")),
+  h("header", {}, h("h1", {}, data.title), h("p", {}, "A report by Laterna. The numbers are those of its files, in four digits; all of them show where a pointer rests.")),
   h("nav", { "aria-label": "Sections" }, h("ul", {}, links)),
   h("main", { id: "main", tabindex: -1 }, sections));
 document.documentElement.dataset.ready = "yes";

@@ -9,9 +9,9 @@ function facets(p, size, fill, label, extra = []) {
   const [w, hgt] = size, width = P.plotWidth();
   const rows = p.grid.map((row) => ({ ...row, size: Math.hypot(row.du, row.dv), facet: depthName(row.depth_m) }));
   return P.plot({
-    width, height: (width / 3) * (hgt / w) + 90, marginLeft: 50, fx: { label: null, domain: p.depths_m.map(depthName) },
+    width, height: (width / 3) * (hgt / w) + 100, marginLeft: 50, marginTop: 32, fx: { label: null, domain: p.depths_m.map(depthName) },
     x: { label: "column, px", ticks: 3, domain: [-w / 32, w * (1 + 1 / 32)] }, y: { label: "row, px", ticks: 4, domain: [hgt * (1 + 1 / 24), -hgt / 24] },
-    color: { scheme: "viridis", legend: true, label, zero: true },
+    color: { scheme: "viridis", legend: true, label, zero: true, marginLeft: 16, width: 280 },
     marks: [P.rect(rows, { fx: "facet", x1: (d) => d.u - w / 30, x2: (d) => d.u + w / 30, y1: (d) => d.v - hgt / 22, y2: (d) => d.v + hgt / 22,
       fill, title: (d) => `du ${d.du}, dv ${d.dv}, σ ${d.sigma_px} px` }), ...extra.map((mark) => mark(rows))],
   });

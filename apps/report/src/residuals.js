@@ -8,7 +8,7 @@ function vectors(r, size) {
   const rows = r.sample.map(([u, v, du, dv]) => ({ u, v, du, dv, size: Math.hypot(du, dv), angle: Math.atan2(dv, du) }));
   const aspect = size ? size[1] / size[0] : 0.6;
   return P.plot({
-    height: P.plotWidth() * Math.min(1, aspect) + 40, marginLeft: 60,
+    height: P.plotWidth() * Math.min(1, aspect) + 50, marginLeft: 60, marginTop: 30,
     x: { label: "projector column, px", domain: size && [-0.5, size[0] - 0.5] },
     y: { label: "projector row, px", reverse: true, domain: size && [size[1] - 0.5, -0.5], ...(size && { reverse: false }) },
     length: { range: [0, 14], domain: [0, rms] },
@@ -24,10 +24,10 @@ function vectors(r, size) {
 function wheel() {
   const steps = Array.from({ length: 36 }, (_, k) => k * 10);
   const svg = P.plot({
-    width: 120, height: 120, margin: 12, x: { domain: [-1.3, 1.3], axis: null }, y: { domain: [1.3, -1.3], axis: null },
-    marks: [P.vector(steps, { x: (a) => 0.3 * Math.cos((a * Math.PI) / 180), y: (a) => 0.3 * Math.sin((a * Math.PI) / 180), length: 30, anchor: "start",
+    width: 130, height: 130, margin: 14, marginBottom: 14, x: { domain: [-1.3, 1.3], axis: null }, y: { domain: [1.3, -1.3], axis: null },
+    marks: [P.vector(steps, { x: (a) => 0.3 * Math.cos((a * Math.PI) / 180), y: (a) => 0.3 * Math.sin((a * Math.PI) / 180), length: 26, anchor: "start",
       rotate: (a) => a + 90, stroke: (a) => directionColour((a * Math.PI) / 180), strokeWidth: 3 }),
-    P.text([[1.2, 0, "+u"], [0, 1.2, "+v"]], { x: "0", y: "1", text: "2" })],
+    P.text([[1.25, 0, "+u"], [0, 1.25, "+v"]], { x: "0", y: "1", text: "2" })],
   });
   svg.setAttribute("role", "img");
   svg.setAttribute("aria-label", "Which colour stands for which direction: u to the right, v down");

@@ -45,21 +45,23 @@ function upwards(devices) {
   return up.lengthSq() > 1e-6 ? up.normalize() : new THREE.Vector3(0, 0, 1);
 }
 
-function place(camera, controls, scene, devices, aim) {
-  const box = new THREE.Box3();
-  for (const d of devices) box.expandByPoint(new THREE.Vector3(...centre(d)));
-  box.union(aim);
-  const ball = box.getBoundingSphere(new THREE.Sphere());
+// From above and beside the devices, so near that all the points just fit.
+function place(camera, controls, devices, points) {
   const up = upwards(devices), back = new THREE.Vector3();
   for (const d of devices) back.sub(new THREE.Vector3(...d.device_from_world[2].slice(0, 3)));
   back.addScaledVector(up, -back.dot(up));
   if (back.lengthSq() < 1e-6) back.set(up.y, up.z, up.x);
   const side = new THREE.Vector3().crossVectors(up, back.normalize());
-  const from = back.multiplyScalar(0.6).addScaledVector(side, 0.8).addScaledVector(up, 0.5).normalize();
+  const from = back.clone().multiplyScalar(0.6).addScaledVector(side, 0.8).addScaledVector(up, 0.5).normalize();
+  const right = new THREE.Vector3().crossVectors(up, from).normalize(), above = new THREE.Vector3().crossVectors(from, right);
+  const flat = new THREE.Box3().setFromPoints(points.map((p) => new THREE.Vector3(p.dot(right), p.dot(above), p.dot(from))));
+  const middle = flat.getCenter(new THREE.Vector3()), slope = Math.tan(THREE.MathUtils.degToRad(camera.fov / 2));
+  const distance = Math.max(...points.map((p) => p.dot(from) - middle.z +
+    Math.max(Math.abs(p.dot(right) - middle.x) / (slope * camera.aspect), Math.abs(p.dot(above) - middle.y) / slope)));
   camera.up.copy(up);
-  camera.near = ball.radius / 100; camera.far = ball.radius * 100;
-  controls.target.copy(ball.center);
-  camera.position.copy(ball.center).addScaledVector(from, 0.9 * ball.radius / Math.sin(THREE.MathUtils.degToRad(camera.fov / 2)));
+  camera.near = distance / 100; camera.far = distance * 100;
+  controls.target.copy(right.multiplyScalar(middle.x).addScaledVector(above, middle.y).addScaledVector(from, middle.z));
+  camera.position.copy(controls.target).addScaledVector(from, 1.05 * distance);
 }
 
 // Arrow keys turn, + and - come nearer and step back.
@@ -104,7 +106,8 @@ function view3d(figures, devices) {
   for (const d of figures.rig.projectors) scene.add(frustum(d, reach(d), vermilion));
   for (const d of figures.rig.cameras) scene.add(frustum(d, reach(d), blue));
   const controls = new OrbitControls(camera, canvas);
-  place(camera, controls, scene, devices, aim);
+  const corner = (k) => new THREE.Vector3(...[0, 1, 2].map((axis) => (k & (1 << axis) ? aim.max : aim.min).getComponent(axis)));
+  place(camera, controls, devices, [...devices.flatMap((d) => [centre(d), ...corners(d, reach(d))].map((p) => new THREE.Vector3(...p))), ...Array.from({ length: 8 }, (_, k) => corner(k))]);
   const draw = () => renderer.render(scene, camera);
   const fit = () => {
     const width = canvas.parentElement?.clientWidth || 860;

@@ -1,0 +1,128 @@
+#include "apps/lab/selfcal_report.h"
+
+#include "apps/lab/trial_report.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+
+namespace laterna {
+
+using Json = nlohmann::json;
+
+namespace {
+
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json device_json(const SelfCalibration& c, std::size_t d) {
+  const Intrinsics& k = c.rig.devices[d];
+  const std::string& name = c.tracks.devices[d].name;
+  Json sigma = Json::object();
+  const auto at = columns_of(c.tracks).intrinsics[d];
+  const char* keys[] = {"fx", "fy", "cx", "cy"};
+  for (int i = 0; i < 4; ++i)
+    if (at[i] >= 0) sigma[keys[i]] = number(c.sigma[at[i]]);
+  return {{"name", name},
+          {"size", {k.size.x, k.size.y}},
+          {"fx", k.fx},
+          {"fy", k.fy},
+          {"cx", k.cx},
+          {"cy", k.cy},
+          {"lens", {{"model", "LENSMODEL_PINHOLE"}, {"parameters", Json::array()}}},
+          {"sigma", sigma}};
+}
+
+Json station_json(const SelfCalibration& c, std::size_t s) {
+  const StationReport& r = c.stations[s];
+  return {{"device", c.tracks.devices[c.tracks.stations[s].device].name},
+          {"station", c.tracks.stations[s].name},
+          {"device_from_first", rows_of(c.rig.station_from_first[s])},
+          {"sightings", r.sightings},
+          {"fit_rms_px", number(r.rms_px)},
+          {"predicted_px", number(r.predicted_px)}};
+}
+
+std::string unit_text(const SelfCalibration& c) {
+  if (c.metric) return "lengths in metres, by the known length";
+  std::string text = "up to scale:";
+  for (const auto& [a, b] : c.units)
+    text +=
+        fmt::format(" the distance from {} to {} is 1;", c.tracks.station_name(a), c.tracks.station_name(b));
+  text.pop_back();
+  return text;
+}
+
+}  // namespace
+
+Json selfcal_json(const SelfCalibration& c) {
+  Json json = {{"status", status_word(c.status)},
+               {"reason", c.reason},
+               {"count",
+                {{"given", c.count.given},
+                 {"needed", c.count.needed()},
+                 {"intrinsics", c.count.intrinsics},
+                 {"places", c.count.places}}},
+               {"merged", c.merged},
+               {"fit_rms_px", nullptr},
+               {"devices", Json::array()},
+               {"stations", Json::array()},
+               {"dropped", Json::array()}};
+  for (const DroppedSighting& d : c.dropped)
+    json["dropped"].push_back({{"point", c.tracks.point_names[d.sighting.point]},
+                               {"station", c.tracks.station_name(d.sighting.station)},
+                               {"residual_sigmas", number(d.residual_sigmas)}});
+  if (!c.weakest_direction.empty())
+    json["weakest"] = {{"direction", c.weakest_direction},
+                       {"sigma", number(c.weakest_sigma)},
+                       {"gap", number(c.smallest_gap)}};
+  if (c.status == Status::refused) return json;
+  json["unit"] = c.metric ? "metre" : "baseline";
+  json["unit_baselines"] = Json::array();
+  for (const auto& [a, b] : c.units)
+    json["unit_baselines"].push_back({c.tracks.station_name(a), c.tracks.station_name(b)});
+  json["fit_rms_px"] = number(c.fit_rms_px);
+  json["residual_scale"] = number(c.residual_scale);
+  json["focal_sigma"] = number(c.focal_sigma);
+  for (std::size_t d = 0; d < c.rig.devices.size(); ++d) json["devices"].push_back(device_json(c, d));
+  for (std::size_t s = 0; s < c.stations.size(); ++s) json["stations"].push_back(station_json(c, s));
+  json["parameters"] = c.parameter_names;
+  json["covariance"] = c.covariance;
+  json["iterations"] = c.iterations;
+  json["termination"] = c.termination;
+  return json;
+}
+
+std::string selfcal_text(const SelfCalibration& c) {
+  std::string text =
+      fmt::format("the pixels give {} numbers; {} are asked for: {} of intrinsics, {} of places\n",
+                  c.count.given, c.count.needed(), c.count.intrinsics, c.count.places);
+  for (const std::string& words : c.merged) text += words + "\n";
+  if (!c.dropped.empty()) text += fmt::format("dropped as outliers: {} sightings\n", c.dropped.size());
+  if (c.status != Status::refused) {
+    for (std::size_t d = 0; d < c.rig.devices.size(); ++d) {
+      const Intrinsics& k = c.rig.devices[d];
+      const auto at = columns_of(c.tracks).intrinsics[d];
+      text += c.tracks.devices[d].name + ":";
+      const double values[] = {k.fx, k.fy, k.cx, k.cy};
+      const char* names[] = {"fx", "fy", "cx", "cy"};
+      for (int i = 0; i < 4; ++i)
+        text += fmt::format(" {} {:.2f}{}", names[i], values[i],
+                            at[i] < 0 ? " (held)" : fmt::format(" ± {:.2g}", c.sigma[at[i]]));
+      text += "\n";
+    }
+    for (std::size_t s = 0; s < c.stations.size(); ++s)
+      text += fmt::format("  {:<24} {:>7} sightings, fit {:.4f} px rms, predicted to {:.3f} px\n",
+                          c.tracks.station_name(int(s)), c.stations[s].sightings, c.stations[s].rms_px,
+                          c.stations[s].predicted_px);
+    text += fmt::format("{}\n{} iterations ({})\n", unit_text(c), c.iterations, c.termination);
+  }
+  if (!c.weakest_direction.empty())
+    text += fmt::format("weakest: {} (sigma {:.2g} in natural units, gap {:.1g})\n", c.weakest_direction,
+                        c.weakest_sigma, c.smallest_gap);
+  return text +
+         fmt::format("verdict: {}{}{}\n", status_word(c.status), c.reason.empty() ? "" : ": ", c.reason);
+}
+
+}  // namespace laterna
