@@ -3,121 +3,39 @@
 // slider moves. A failure leaves a screenshot in SCRATCH; with LATERNA_SCREENSHOTS=1 all are kept, for looking at.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
-import { cpSync, mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
+import { mkdirSync, readFileSync, readdirSync, rmSync } from "node:fs";
 import { createRequire } from "node:module";
 import { join } from "node:path";
+import { gather } from "./samples.mjs";
 
 const [laterna, modules, chromiumPath, source, scratch] = process.argv.slice(2);
 const { chromium } = createRequire(join(modules, "x.js"))("playwright-core");
 const screenshots = process.env.LATERNA_SCREENSHOTS === "1";
 rmSync(scratch, { recursive: true, force: true });
 mkdirSync(scratch, { recursive: true });
-const run = (...words) => {
-  try {
-    return execFileSync(laterna, words, { cwd: scratch, encoding: "utf8", stdio: ["ignore", "pipe", "ignore"], maxBuffer: 1 << 28 });
-  } catch (error) {
-    if (error.status === 3 || error.status === 4) return error.stdout; // refused or weak is an answer too
-    throw error;
-  }
-};
-
-// A 7×6 board in six places before an ideal camera and projector, with a little deterministic noise.
-function boardTable() {
-  const lines = ["pose,corner,board_x,board_y,board_z,cam_x,cam_y,proj_x,proj_y,valid"];
-  const tilts = [[0, 0], [0.5, 0], [-0.4, 0.2], [0, 0.5], [0.1, -0.5], [0.4, 0.4]];
-  let noise = 1;
-  const jitter = () => ((noise = (noise * 16807) % 2147483647) / 2147483647 - 0.5) * 0.2;
-  tilts.forEach(([a, b], pose) => {
-    for (let corner = 0; corner < 42; ++corner) {
-      const x = (corner % 7) * 0.03 - 0.09, y = Math.floor(corner / 7) * 0.03 - 0.075;
-      const z = 0.8 + 0.07 * pose - x * Math.sin(b) + y * Math.sin(a) * Math.cos(b);
-      const X = x * Math.cos(b) + y * Math.sin(a) * Math.sin(b) + 0.02 * (pose - 2), Y = y * Math.cos(a);
-      const pixel = (f, cx, cy, offset) => `${(f * (X + offset)) / z + cx + jitter()},${(f * Y) / z + cy + jitter()}`;
-      lines.push(`${pose},${corner},${x + 0.09},${y + 0.075},0,${pixel(1400, 640, 512, 0)},${pixel(1500, 512, 700, 0.12)},1`);
-    }
-  });
-  return lines.join("\n") + "\n";
-}
-
-const scene = `
-[[mesh]]
-shape = "relief"
-shape_size = [1.6, 1.0, 0.7]
-seed = 7
-[[projector]]
-name = "left"
-size = [320, 200]
-throw_ratio = 1.2
-lens_shift = [0.0, 0.1]
-position = [0.35, -0.1, 2.1]
-look_at = [0, 0, 0]
-up = [0, 1, 0]
-[[camera]]
-name = "cam"
-size = [400, 250]
-fov_x_deg = 42
-position = [-0.35, 0.15, 2.0]
-look_at = [0, 0, 0]
-up = [0.1, 1, 0]
-`;
-
-const sweep = `
-[[grid]]
-name = "slab"
-kind = "points"
-seeds = 3
-repeats = 1
-methods = ["laterna", "dlt"]
-points = [20, 100, 500]
-`;
-
-const conditions = `
-[[grid]]
-name = "few"
-kind = "points"
-seeds = 3
-methods = ["laterna", "opencv"]
-points = [5, 30, 100]
-[[grid]]
-name = "seen"
-kind = "pictures"
-seeds = 1
-scene = "${join(source, "data/atlas/small.toml")}"
-[[grid]]
-name = "shifted"
-kind = "points"
-hidden = true
-seeds = 2
-shift_u_px = [1, 2, 3]
-`;
-
-const json = (name) => JSON.parse(readFileSync(join(scratch, name)));
-
-// One folder with everything that a page can hold, as the commands leave it.
-function gather() {
-  for (const [name, text] of [["scene.toml", scene], ["sweep.toml", sweep], ["conditions.toml", conditions], ["board.csv", boardTable()]]) writeFileSync(join(scratch, name), text);
-  run("roundtrip", "scene.toml", "-o", "all");
-  run("chart", "sweep.toml", "-o", "chart");
-  run("atlas", "conditions.toml", "-o", "atlas");
-  cpSync(join(scratch, "chart/chart.json"), join(scratch, "all/chart.json"));
-  for (const name of ["atlas.json", "cells.json", "pictures"]) cpSync(join(scratch, "atlas", name), join(scratch, "all", name), { recursive: true });
-  run("calibrate", "board.csv", "--camera-size", "1280x1024", "--projector-size", "1024x768", "-o", "all/board.json");
-  run("report", "all", "-o", "page.html");
-  run("report", "all", "-o", "static.html", "--static", "--figures", "figures");
-  const data = JSON.parse(run("report", "all", "--json"));
-  assert.deepEqual([data.result, data.board, data.chart, data.atlas.summary], ["result", "board", "chart", "atlas"].map((name) => json(`all/${name}.json`)));
-  return data;
-}
-
-const flags = ["--no-sandbox", "--disable-background-networking", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist"];
+const flags = [
+  "--no-sandbox",
+  "--disable-background-networking",
+  "--use-angle=swiftshader",
+  "--enable-unsafe-swiftshader",
+  "--ignore-gpu-blocklist",
+];
 
 // A page whose every complaint and request is kept.
 async function open(browser, name) {
   const page = await browser.newPage({ viewport: { width: 900, height: 700 } });
   const complaints = [];
-  page.on("console", (message) => ["error", "warning"].includes(message.type()) && !message.text().includes("GPU stall") && complaints.push(message.text()));
+  page.on(
+    "console",
+    (message) =>
+      ["error", "warning"].includes(message.type()) && !message.text().includes("GPU stall") && complaints.push(message.text()),
+  );
   page.on("pageerror", (error) => complaints.push(String(error)));
-  page.on("request", (request) => /^(data|blob):/.test(request.url()) || request.url().endsWith(name) || complaints.push("request " + request.url()));
+  page.on(
+    "request",
+    (request) =>
+      /^(data|blob):/.test(request.url()) || request.url().endsWith(name) || complaints.push("request " + request.url()),
+  );
   await page.goto("file://" + join(scratch, name));
   await page.waitForTimeout(300); // the 3D view draws with the first frame
   return { page, complaints };
@@ -134,8 +52,15 @@ async function numbersEqual(page, data) {
 }
 
 async function figuresDraw(page) {
-  const figures = await page.$$eval("figure [role=img]", (all) => all.filter((e) => e.tagName !== "CANVAS").map((e) => ({
-    name: e.getAttribute("aria-label"), marks: e.querySelectorAll("path, circle, rect, line").length, bad: /NaN|undefined|Infinity/.test(e.outerHTML) })));
+  const figures = await page.$$eval("figure [role=img]", (all) =>
+    all
+      .filter((e) => e.tagName !== "CANVAS")
+      .map((e) => ({
+        name: e.getAttribute("aria-label"),
+        marks: e.querySelectorAll("path, circle, rect, line").length,
+        bad: /NaN|undefined|Infinity/.test(e.outerHTML),
+      })),
+  );
   assert.ok(figures.length >= 11, `${figures.length} figures`);
   for (const f of figures) {
     assert.ok(f.name && !f.name.includes("“”"), `a figure without a name: ${f.name}`);
@@ -143,7 +68,8 @@ async function figuresDraw(page) {
     assert.ok(!f.bad, `${f.name}: NaN`);
   }
   const colours = await page.$eval("canvas.rig", (canvas) => {
-    const copy = Object.assign(document.createElement("canvas"), { width: 200, height: 112 }), context = copy.getContext("2d");
+    const copy = Object.assign(document.createElement("canvas"), { width: 200, height: 112 }),
+      context = copy.getContext("2d");
     context.drawImage(canvas, 0, 0, 200, 112);
     return new Set(new Uint32Array(context.getImageData(0, 0, 200, 112).data.buffer)).size;
   });
@@ -151,7 +77,12 @@ async function figuresDraw(page) {
 }
 
 async function sliderMoves(page) {
-  const state = () => page.$eval("figure.leaf", (f) => [f.querySelector("img").src, f.querySelector("img").alt, f.querySelector("output").textContent]);
+  const state = () =>
+    page.$eval("figure.leaf", (f) => [
+      f.querySelector("img").src,
+      f.querySelector("img").alt,
+      f.querySelector("output").textContent,
+    ]);
   const before = await state();
   await page.focus("input[type=range]");
   await page.keyboard.press("ArrowLeft");
@@ -176,7 +107,8 @@ async function rigTurns(page) {
 
 // By the keyboard: a condition in the table behind the map, then its page with the picture and the command.
 async function cellOpens(page, data) {
-  const index = data.atlas.cells.findIndex((cell) => cell.kind === "pictures"), cell = data.atlas.cells[index];
+  const index = data.atlas.cells.findIndex((cell) => cell.kind === "pictures"),
+    cell = data.atlas.cells[index];
   await page.$$eval("#atlas details", (all) => all.forEach((e) => (e.open = true)));
   await page.focus(`#atlas td a[href="#cell-${index}"], #atlas th a[href="#cell-${index}"]`);
   await page.keyboard.press("Enter");
@@ -190,10 +122,27 @@ async function cellOpens(page, data) {
 // Every figure is there as a file of its own.
 function figuresAreFiles() {
   const names = readdirSync(join(scratch, "figures")).sort();
-  assert.deepEqual(names, ["atlas_laterna.svg", "atlas_opencv.svg", "chart.svg", "difference_left.svg", "frame_cam_left.png", "left_out_poses.svg", "lens_ladder.svg",
-    "map_projector_column_cam_left.png", "map_projector_row_cam_left.png", "map_standard_deviation_cam_left.png", "range_left.svg", "residual_histogram_cam_left.svg",
-    "residual_vectors_cam_left.svg", "rig.svg", "uncertainty_by_range.svg", "uncertainty_left.svg"]);
-  for (const name of names.filter((n) => n.endsWith(".svg"))) assert.ok(!/nan|inf[^o]/.test(readFileSync(join(scratch, "figures", name), "utf8")), name);
+  assert.deepEqual(names, [
+    "atlas_laterna.svg",
+    "atlas_opencv.svg",
+    "board_rig.svg",
+    "chart.svg",
+    "difference_projector.svg",
+    "frame_camera_projector.png",
+    "left_out_poses.svg",
+    "lens_ladder.svg",
+    "map_projector_column_camera_projector.png",
+    "map_projector_row_camera_projector.png",
+    "map_standard_deviation_camera_projector.png",
+    "range_projector.svg",
+    "residual_histogram_camera_projector.svg",
+    "residual_vectors_camera_projector.svg",
+    "rig.svg",
+    "uncertainty_by_range.svg",
+    "uncertainty_projector.svg",
+  ]);
+  for (const name of names.filter((n) => n.endsWith(".svg")))
+    assert.ok(!/nan|inf[^o]/.test(readFileSync(join(scratch, "figures", name), "utf8")), name);
 }
 
 async function prints(page) {
@@ -214,7 +163,10 @@ async function readable(page) {
 async function darkIsDark(page) {
   await page.emulateMedia({ colorScheme: "dark" });
   const paper = await page.evaluate(() => getComputedStyle(document.body).backgroundColor);
-  assert.ok(paper.match(/\d+/g).every((level) => Number(level) < 64), paper);
+  assert.ok(
+    paper.match(/\d+/g).every((level) => Number(level) < 64),
+    paper,
+  );
 }
 
 async function wholePage(browser, data) {
@@ -222,7 +174,7 @@ async function wholePage(browser, data) {
   const keep = (name) => page.screenshot({ path: join(scratch, name), fullPage: true });
   try {
     const ids = await page.$$eval("main > section", (all) => all.map((e) => e.id));
-    assert.deepEqual(ids, ["summary", "pictures", "rig", "residuals", "projection", "board", "chart", "atlas"]);
+    assert.deepEqual(ids, ["summary", "pictures", "rig", "residuals", "projection", "board-rig", "board", "chart", "atlas"]);
     await numbersEqual(page, data);
     await figuresDraw(page);
     await readable(page);
@@ -249,7 +201,7 @@ async function staticPage(browser) {
   if (screenshots) await page.screenshot({ path: join(scratch, "static.png"), fullPage: true });
 }
 
-const data = gather();
+const data = gather(laterna, source, scratch);
 const browser = await chromium.launch({ executablePath: chromiumPath, args: flags });
 try {
   await wholePage(browser, data);

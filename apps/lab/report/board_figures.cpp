@@ -2,6 +2,7 @@
 
 #include "apps/lab/json_number.h"
 #include "apps/lab/report/svg_chart.h"
+#include "apps/lab/report/svg_rig.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -23,7 +24,7 @@ std::string rung_name(const Json& rung, std::size_t k) {
 }
 
 StaticFigure lens_ladder(const Json& ladder) {
-  SvgChart chart{"Lens ladder: error of poses that were left out", "px rms", "", true, false, {}};
+  SvgChart chart{"Lens ladder: error of poses that were left out", "px rms", "", false, false, {}};
   SvgSeries tried{Kind::points, "tried", colours[0], {}}, climbed{Kind::points, "climbed", colours[1], {}, 2},
       fits{Kind::points, "fit of each device", "#767676", {}, 3};
   for (std::size_t k = 0; k < ladder.size(); ++k) {
@@ -47,14 +48,15 @@ StaticFigure uncertainty_by_range(const Json& board) {
                  {}};
   for (const char* kind : {"cameras", "projectors"})
     for (const Json& device : board[kind]) {
-      const char* colour = colours[chart.series.size() / 2 % colours.size()];
+      const char* colour = colours[chart.series.size() / 3 % colours.size()];
       SvgSeries whole{Kind::line, device["name"].get<std::string>(), colour, {}},
           worst{Kind::dashes, "", colour, {}};
       for (const Json& row : device["prediction_sigma_px"]) {
         whole.points.push_back({number_or_nan(row, "range"), number_or_nan(row, "rms")});
         worst.points.push_back({number_or_nan(row, "range"), number_or_nan(row, "worst")});
       }
-      chart.series.push_back(whole), chart.series.push_back(worst);
+      const SvgSeries ranges{Kind::points, "", colour, whole.points, int(chart.series.size() / 3)};
+      chart.series.insert(chart.series.end(), {whole, worst, ranges});
     }
   return {"uncertainty_by_range", chart.title, svg_chart(chart), ""};
 }
@@ -73,10 +75,26 @@ StaticFigure left_out_poses(const Json& board) {
   return {"left_out_poses", chart.title, svg_chart(chart), ""};
 }
 
+// In the camera's frame, with each board's distance on its axis.
+StaticFigure board_rig(const Json& board) {
+  Json rig{{"cameras", board["cameras"]}, {"projectors", board["projectors"]}, {"meshes", Json::array()}};
+  for (Json& camera : rig["cameras"])
+    camera["device_from_world"] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}};
+  for (Json& projector : rig["projectors"]) projector["device_from_world"] = projector["device_from_camera"];
+  Json points = Json::array();
+  for (const Json& pose : board["poses"])
+    if (pose["distance"].is_number()) points.insert(points.end(), {0, 0, pose["distance"]});
+  return {"board_rig",
+          "The rig from boards: projectors (vermilion), camera (blue), distances of the boards (orange)",
+          rig_svg(rig, points), ""};
+}
+
 }  // namespace
 
 void add_board_figures(const Json& board, std::vector<StaticFigure>& figures) {
   if (!board["ladder"].empty()) figures.push_back(lens_ladder(board["ladder"]));
+  if (!board["cameras"].empty() && !board.value("poses", Json::array()).empty())
+    figures.push_back(board_rig(board));
   if (!board["cameras"].empty() && !board["projectors"].empty())
     figures.push_back(uncertainty_by_range(board));
   if (board["held_out_px"].is_object() && !board.value("poses", Json::array()).empty())

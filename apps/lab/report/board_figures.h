@@ -5,8 +5,8 @@
 
 namespace laterna {
 
-/// Of board_json() (board_report.h): the lens ladder, uncertainty by range, each pose left out; those for
-/// which it has numbers.
+/// Of board_json() (board_report.h): the lens ladder, the rig, uncertainty by range, each pose left out;
+/// those for which it has numbers.
 void add_board_figures(const nlohmann::json& board, std::vector<StaticFigure>& figures);
 
 }  // namespace laterna

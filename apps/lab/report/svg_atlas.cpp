@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace laterna {
 
@@ -30,8 +31,9 @@ std::vector<Row> rows_of(const Json& cells, const std::string& method, bool hidd
   for (const Json& cell : cells) {
     if (cell["method"] != method || cell["hidden"] != hidden) continue;
     const std::string grid = cell["grid"];
-    if (rows.empty() || rows.back().name != grid) rows.push_back({grid, {}});
-    rows.back().cells.push_back(&cell);
+    auto row = std::find_if(rows.begin(), rows.end(), [&](const Row& r) { return r.name == grid; });
+    if (row == rows.end()) row = rows.insert(row, {grid, {}});
+    row->cells.push_back(&cell);
   }
   return rows;
 }
@@ -98,7 +100,10 @@ std::string atlas_svg(const Json& cells, const std::string& method) {
   const double top = 68, below = top + height_of(counted) + 24;
   Svg svg(left + side * across + 20, hidden.empty() ? below - 10 : below + height_of(hidden) + 10,
           "Outcomes of method " + method);
-  svg.text(20, 22, fmt::format("Method {}: a square per condition, by its worst seed", method), 16);
+  svg.text(
+      20, 22,
+      fmt::format("Method {}: a square per condition; S and X where any seed is, else what most are", method),
+      16);
   draw_key(svg);
   draw_rows(svg, counted, top);
   if (!hidden.empty()) {

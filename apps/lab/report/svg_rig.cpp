@@ -144,14 +144,14 @@ std::string rig_svg(const Json& rig, const Json& points) {
     }
   const Sheet sheet(look_of(rig), all);
   sheet.draw(svg, meshes, {neutral_grey, 0.6, "", 0.45});
-  sheet.draw(svg, lit, {orange, 2});
+  sheet.draw(svg, lit, {orange, lit.size() < 100 ? 7.0 : 2.0});
   for (const char* kind : {"projectors", "cameras"})
     for (const Json& device : rig[kind]) {
       sheet.draw(svg, frustum(device, aim), {kind[0] == 'p' ? vermilion : blue, 1.8});
       const glm::dvec2 at = sheet.place(placed(device).centre_world);
       svg.text(at.x, at.y - 8, device["name"].get<std::string>(), 13, Svg::Anchor::middle);
     }
-  svg.text(20, 22, "The rig: meshes outlined, lit points dotted", 16);
+  svg.text(20, 22, "The rig", 16);
   return svg.str();
 }
 

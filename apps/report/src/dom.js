@@ -34,20 +34,50 @@ export function number(data, path) {
 export function table(caption, columns, rows) {
   const cell = (column, index, row, k) =>
     h(index === 0 ? "th" : "td", index === 0 ? { scope: "row" } : { class: column[2] }, column[1](row, k));
-  return h("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": caption },
-    h("table", {},
+  return h(
+    "div",
+    { class: "scroll", tabindex: 0, role: "region", "aria-label": caption },
+    h(
+      "table",
+      {},
       h("caption", {}, caption),
-      h("thead", {}, h("tr", {}, columns.map(([name]) => h("th", { scope: "col" }, name)))),
-      h("tbody", {}, rows.map((row, k) => h("tr", {}, columns.map((c, i) => cell(c, i, row, k)))))));
+      h(
+        "thead",
+        {},
+        h(
+          "tr",
+          {},
+          columns.map(([name]) => h("th", { scope: "col" }, name)),
+        ),
+      ),
+      h(
+        "tbody",
+        {},
+        rows.map((row, k) =>
+          h(
+            "tr",
+            {},
+            columns.map((c, i) => cell(c, i, row, k)),
+          ),
+        ),
+      ),
+    ),
+  );
 }
 
 /** A figure that screen readers meet as one image with a sentence, and its numbers in a table behind it. */
 export function figure(caption, drawing, behind, more) {
   drawing.setAttribute("role", "img");
   drawing.setAttribute("aria-label", caption);
-  return h("figure", {}, h("div", { class: "scroll" }, drawing), more, h("figcaption", {}, caption),
+  return h(
+    "figure",
+    {},
+    h("div", { class: "scroll" }, drawing),
+    more,
+    h("figcaption", {}, caption),
     behind && h("details", {}, h("summary", {}, "The numbers as a table"), behind),
-    h("p", { class: "save" }, saveButton(drawing, caption)));
+    h("p", { class: "save" }, saveButton(drawing, caption)),
+  );
 }
 
 // Saves the drawing's largest SVG, for papers.
@@ -59,7 +89,11 @@ function saveButton(drawing, caption) {
     copy.setAttribute("color", "#000");
     const link = h("a", {
       href: URL.createObjectURL(new Blob([copy.outerHTML], { type: "image/svg+xml" })),
-      download: caption.replace(/[^a-z0-9]+/gi, "-").toLowerCase().slice(0, 60) + ".svg",
+      download:
+        caption
+          .replace(/[^a-z0-9]+/gi, "-")
+          .toLowerCase()
+          .slice(0, 60) + ".svg",
     });
     link.click();
   };

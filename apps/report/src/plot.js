@@ -7,7 +7,8 @@ export const plotWidth = () => Math.max(320, Math.min(860, document.documentElem
 
 // A logarithmic axis with plain numbers in place of 400m and 2k.
 const plain = (axis) => (axis?.type === "log" ? { tickFormat: (value) => format(Number(value.toPrecision(3))), ...axis } : axis);
-const belowTicks = (axis) => (axis ? { labelOffset: 38, ...plain(axis) } : axis);
+// Side by side, long numbers have room for few ticks.
+const belowTicks = (axis) => (axis ? { labelOffset: 38, ...(axis.type === "log" && { ticks: 5 }), ...plain(axis) } : axis);
 
 export function plot(options) {
   return Plot.plot({
