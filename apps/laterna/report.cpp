@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include <optional>
+
 namespace laterna {
 
 namespace {
@@ -22,11 +24,9 @@ std::filesystem::path default_output(const std::filesystem::path& path) {
   return page.replace_extension(".html");
 }
 
-void write_figures(const nlohmann::json& data, const std::filesystem::path& target) {
-  PendingFolder folder(target);
+void fill(const PendingFolder& folder, const nlohmann::json& data) {
   for (const StaticFigure& figure : static_figures(data))
     write_file(folder.path() / figure.file_name(), figure.file_bytes());
-  folder.commit();
 }
 
 std::string page_of(const nlohmann::json& data, const Words& words, const Common& common) {
@@ -45,8 +45,10 @@ int run(const Words& words, const Common& common) {
   }
   const std::filesystem::path out =
       words.out.empty() ? default_output(words.path) : std::filesystem::path(words.out);
+  std::optional<PendingFolder> figures;
+  if (!words.figures.empty()) fill(figures.emplace(words.figures), data);
   write_file(out, page_of(data, words, common));
-  if (!words.figures.empty()) write_figures(data, words.figures);
+  if (figures) figures->commit();
   fmt::print("open {}\n", out.string());
   return exit_ok;
 }

@@ -108,7 +108,7 @@ std::string write_cell_picture(const Planned& planned, std::uint64_t seed, const
   try {
     const CellProblem problem =
         planned.trial(cell_seed(planned.cell.name, seed, int(worst - letters.begin())));
-    const std::string file =
+    std::string file =
         fmt::format("pictures/{:016x}.png", hash_of(planned.cell.method + ": " + planned.cell.name));
     std::filesystem::create_directories(folder / "pictures");
     write_picture(folder / file, problem.picture());

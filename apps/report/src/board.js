@@ -101,6 +101,7 @@ export function board(data) {
   return section(
     "board",
     "Calibration from boards",
+    b.ladder.length === 0 && h("p", {}, "Nothing was calibrated: the verdict says why."),
     b.ladder.length > 0 && figure("Lens ladder: error of poses that were left out, by lens model", ladder(b), ladderTable(data)),
     sigmas.length > 0 &&
       figure(
