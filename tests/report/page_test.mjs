@@ -15,6 +15,7 @@ rmSync(scratch, { recursive: true, force: true });
 mkdirSync(scratch, { recursive: true });
 const flags = [
   "--no-sandbox",
+  "--disable-dev-shm-usage",
   "--disable-background-networking",
   "--use-angle=swiftshader",
   "--enable-unsafe-swiftshader",
@@ -24,6 +25,7 @@ const flags = [
 // A page whose every complaint and request is kept.
 async function open(browser, name) {
   const page = await browser.newPage({ viewport: { width: 900, height: 700 } });
+  page.setDefaultTimeout(100000); // a machine at work on other things is slow, not wrong
   const complaints = [];
   page.on(
     "console",

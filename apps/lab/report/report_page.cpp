@@ -45,7 +45,7 @@ std::string script_json(const Json& data) {
 
 // Four digits for people, all of them where a pointer rests.
 std::string number_element(const Json& value) {
-  const std::string whole = html_text(value.dump());
+  std::string whole = html_text(value.dump());
   if (!value.is_number_float()) return whole;
   return fmt::format("<data value=\"{0}\" title=\"{0}\">{1:.4g}</data>", whole, value.get<double>());
 }

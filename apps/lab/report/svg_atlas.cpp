@@ -58,7 +58,7 @@ void draw_rows(Svg& svg, const std::vector<Row>& rows, double y) {
       const double x = left + side * double(k % across), top = y + side * double(k / across);
       svg.rect(x, top, side - 1, side - 1, colours[outcome]);
       svg.hinted_text(x + side / 2 - 0.5, top + side - 4, std::string(1, outcome_letters[outcome]), 10,
-                      outcome == 3 || outcome == 4 ? "#fff" : "#000",
+                      outcome == 4 ? "#fff" : "#000",
                       fmt::format("{}: {}", cell["cell"].get<std::string>(), outcome_words[outcome]));
     }
     y += side * std::ceil(double(row.cells.size()) / across) + 6;

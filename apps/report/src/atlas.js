@@ -1,18 +1,10 @@
 // Where methods are right, say that they are weak, refuse, crash, or are silently wrong: a heat map per method, a page per cell.
 import * as P from "./plot.js";
-import { h, figure, format, number, section, table } from "./dom.js";
+import { h, figure, number, section, table } from "./dom.js";
+import { cellPage, condition, link, outcomeOf } from "./cell.js";
 import { outcomes, outcomeColours, outcomeLetters, outcomeWords } from "./colours.js";
 
-/** The worst of a cell: crashed or silently wrong if any seed was, else what most seeds were. */
-export function outcomeOf(cell) {
-  if (cell.crashed > 0) return "crashed";
-  if (cell.silent > 0) return "silent";
-  return ["right", "weak", "refused"].reduce((best, word) => (cell[word] > cell[best] ? word : best));
-}
-
-const condition = (cell) => cell.cell.replace(`${cell.grid}: `, "");
 const methodsOf = (cells) => [...new Set(cells.map((cell) => cell.method))].sort((a, b) => (b === "laterna") - (a === "laterna")); // its own first
-const link = (index) => `#cell-${index}`;
 
 // Cells of a grid side by side, at most `across` in a row.
 function laidOut(cells, across) {
@@ -54,7 +46,7 @@ function heatMap(cells) {
         x: (d) => d.x + 0.5,
         y: (d) => d.y + 0.5,
         text: (d) => outcomeLetters[outcomeOf(d.cell)],
-        fill: (d) => (["silent", "crashed"].includes(outcomeOf(d.cell)) ? "white" : "black"),
+        fill: (d) => (outcomeOf(d.cell) === "crashed" ? "white" : "black"),
         fontSize: Math.min(11, size * 0.7),
         pointerEvents: "none",
       }),
@@ -74,62 +66,6 @@ function key() {
     { class: "key" },
     outcomes.map((word) =>
       h("li", {}, h("span", { style: `background:${outcomeColours[word]}` }), `${outcomeLetters[word]}: ${outcomeWords[word]}`),
-    ),
-  );
-}
-
-function cellPage(data, cell) {
-  const value = (name) => number(data, ["atlas", "cells", cell.index, name]);
-  return h(
-    "article",
-    { id: "cell", tabindex: -1, "aria-label": "One cell of the atlas" },
-    h("h3", {}, `${cell.method}: ${cell.grid}`),
-    h("p", {}, h("strong", {}, outcomeWords[outcomeOf(cell)]), `, ${condition(cell)}`),
-    h(
-      "dl",
-      {},
-      outcomes.flatMap((word) => [h("dt", {}, outcomeWords[word]), h("dd", {}, value(word), " seeds")]),
-      h("dt", {}, "median error"),
-      h("dd", {}, value("error_px"), " px rms over the volume"),
-      h("dt", {}, "median prediction"),
-      h("dd", {}, value("predicted_px"), " px rms"),
-      h("dt", {}, "seed by seed"),
-      h("dd", {}, h("code", {}, cell.letters)),
-    ),
-    cell.image &&
-      h(
-        "figure",
-        {},
-        h("img", {
-          src: cell.image,
-          alt: `What the camera of ${cell.cell} saw in white light, and beside it the columns that were decoded from it`,
-          width: 640,
-        }),
-        h(
-          "figcaption",
-          {},
-          "Of the first seed that fared worst: what the camera saw in white light, and the columns that were decoded (grey: none).",
-        ),
-      ),
-    cell.reasons.length > 0 &&
-      h(
-        "div",
-        {},
-        h("h4", {}, "What was said (numbers left out)"),
-        h(
-          "ul",
-          {},
-          cell.reasons.map(([text, n]) => h("li", {}, `${text} (${n} of ${cell.letters.length})`)),
-        ),
-      ),
-    h("h4", {}, "The same cell again"),
-    h("p", {}, h("code", {}, cell.command)),
-    h(
-      "p",
-      {},
-      h("a", { href: "#atlas" }, "Back to the atlas"),
-      " · ",
-      h("a", { href: link((cell.index + 1) % data.atlas.cells.length) }, "Next cell"),
     ),
   );
 }
