@@ -21,6 +21,7 @@ namespace {
 struct Words {
   std::vector<std::string> paths;
   std::string scene, size, out;
+  std::vector<std::string> known;
   PatternParameters patterns;
   SolveOptions solve;
   BoardWords boards;
@@ -51,8 +52,9 @@ int run(const Words& words, const Common& common) {
   const Scene scene = believed_scene(words, manifest);
   SolveOptions options = words.solve;
   options.seed = common.seed;
-  const auto estimates = calibrate_folder(folder, manifest, scene, options, {},
-                                          [&](const std::string& line) { progress(common, line); });
+  const auto estimates =
+      calibrate_folder(folder, manifest, scene, options, {}, read_known_intrinsics(words.known),
+                       [&](const std::string& line) { progress(common, line); });
   std::vector<nlohmann::json> entries;
   int code = exit_ok;
   for (const FolderEstimate& e : estimates) {
@@ -78,8 +80,9 @@ int run(const Words& words, const Common& common) {
 }
 
 void expect_options(const CLI::App& command, For what) {
-  static constexpr std::array<std::pair<const char*, For>, 14> options{
+  static constexpr std::array<std::pair<const char*, For>, 15> options{
       {{"--scene", For::known_scene},
+       {"--known", For::known_scene},
        {"--loss", For::known_scene},
        {"--loss-scale", For::known_scene},
        {"--lens", For::boards},
@@ -128,6 +131,12 @@ void add_calibrate(CLI::App& app, Common& common) {
                       "Scene with the believed meshes and cameras (default: the folder's own)");
   command->add_option("--projector-size", words->size,
                       "WIDTHxHEIGHT, for a folder without a manifest and for a FILE.csv");
+  command
+      ->add_option(
+          "--known", words->known,
+          "FILE or NAME=FILE with known intrinsics (.cameramodel, or an estimate with its sigmas): only the "
+          "placement is solved for, and a flat scene will do")
+      ->take_all();
   add_pattern_words(*command, words->patterns);
   command->add_option("-o,--output", words->out, "File for the estimate (JSON; default: none written)");
   add_solve_words(*command, words->solve);
