@@ -24,7 +24,7 @@ const flags = [
 
 // A page whose every complaint and request is kept.
 async function open(browser, name) {
-  const page = await browser.newPage({ viewport: { width: 900, height: 700 } });
+  const page = await browser.newPage({ viewport: { width: 760, height: 600 } });
   page.setDefaultTimeout(100000); // a machine at work on other things is slow, not wrong
   const complaints = [];
   page.on(

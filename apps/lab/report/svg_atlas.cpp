@@ -54,8 +54,8 @@ void draw_rows(Svg& svg, const std::vector<Row>& rows, double y) {
     svg.text(left - 10, y + side - 3, row.name, 12, Svg::Anchor::end);
     for (std::size_t k = 0; k < row.cells.size(); ++k) {
       const Json& cell = *row.cells[k];
-      const std::size_t outcome = outcome_index(cell);
-      const double x = left + side * double(k % across), top = y + side * double(k / across);
+      const std::size_t outcome = outcome_index(cell), column = k % across, line = k / across;
+      const double x = left + side * double(column), top = y + side * double(line);
       svg.rect(x, top, side - 1, side - 1, colours[outcome]);
       svg.hinted_text(x + side / 2 - 0.5, top + side - 4, std::string(1, outcome_letters[outcome]), 10,
                       outcome == 4 ? "#fff" : "#000",
