@@ -13,9 +13,11 @@ const { chromium } = createRequire(join(modules, "x.js"))("playwright-core");
 const screenshots = process.env.LATERNA_SCREENSHOTS === "1";
 rmSync(scratch, { recursive: true, force: true });
 mkdirSync(scratch, { recursive: true });
+const keep = (page, name) => page.screenshot({ path: join(scratch, name), fullPage: true });
 const flags = [
   "--no-sandbox",
   "--disable-dev-shm-usage",
+  "--disable-gpu-compositing", // WebGL is drawn by the processor; the page need not be
   "--disable-background-networking",
   "--use-angle=swiftshader",
   "--enable-unsafe-swiftshader",
@@ -23,24 +25,22 @@ const flags = [
 ];
 
 // A page whose every complaint and request is kept.
-async function open(browser, name) {
+async function watched(browser) {
   const page = await browser.newPage({ viewport: { width: 760, height: 600 } });
   page.setDefaultTimeout(100000); // a machine at work on other things is slow, not wrong
   const complaints = [];
-  page.on(
-    "console",
-    (message) =>
-      ["error", "warning"].includes(message.type()) && !message.text().includes("GPU stall") && complaints.push(message.text()),
-  );
+  const isBad = (message) => ["error", "warning"].includes(message.type()) && !message.text().includes("GPU stall");
+  const isOwn = (url) =>
+    /^(data|blob):/.test(url) || [scratch + "/page.html", scratch + "/static.html"].some((own) => url.endsWith(own));
+  page.on("console", (message) => isBad(message) && complaints.push(message.text()));
   page.on("pageerror", (error) => complaints.push(String(error)));
-  page.on(
-    "request",
-    (request) =>
-      /^(data|blob):/.test(request.url()) || request.url().endsWith(name) || complaints.push("request " + request.url()),
-  );
+  page.on("request", (request) => isOwn(request.url()) || complaints.push("request " + request.url()));
+  return { page, complaints };
+}
+
+async function open(page, name) {
   await page.goto("file://" + join(scratch, name));
   await page.waitForTimeout(300); // the 3D view draws with the first frame
-  return { page, complaints };
 }
 
 async function numbersEqual(page, data) {
@@ -152,7 +152,7 @@ async function prints(page) {
   const seen = (selector) => page.$eval(selector, (e) => getComputedStyle(e).display !== "none");
   assert.deepEqual([await seen("nav"), await seen(".save"), await seen("main")], [false, false, true]);
   assert.equal(await page.evaluate(() => getComputedStyle(document.body).backgroundColor), "rgb(255, 255, 255)");
-  await page.pdf({ path: join(scratch, "print.pdf"), format: "A4" });
+  if (screenshots) await page.pdf({ path: join(scratch, "print.pdf"), format: "A4" });
 }
 
 async function readable(page) {
@@ -171,43 +171,42 @@ async function darkIsDark(page) {
   );
 }
 
-async function wholePage(browser, data) {
-  const { page, complaints } = await open(browser, "page.html");
-  const keep = (name) => page.screenshot({ path: join(scratch, name), fullPage: true });
-  try {
-    const ids = await page.$$eval("main > section", (all) => all.map((e) => e.id));
-    assert.deepEqual(ids, ["summary", "pictures", "rig", "residuals", "projection", "board-rig", "board", "chart", "atlas"]);
-    await numbersEqual(page, data);
-    await figuresDraw(page);
-    await readable(page);
-    await sliderMoves(page);
-    await rigTurns(page);
-    await cellOpens(page, data);
-    if (screenshots) await keep("light.png");
-    await darkIsDark(page);
-    if (screenshots) await keep("dark.png");
-    await prints(page);
-    assert.deepEqual(complaints, []);
-  } catch (error) {
-    await keep("failed.png");
-    throw error;
-  }
+async function wholePage(page, data) {
+  await open(page, "page.html");
+  const ids = await page.$$eval("main > section", (all) => all.map((e) => e.id));
+  assert.deepEqual(ids, ["summary", "pictures", "rig", "residuals", "projection", "board-rig", "board", "chart", "atlas"]);
+  await numbersEqual(page, data);
+  await figuresDraw(page);
+  await readable(page);
+  await sliderMoves(page);
+  await rigTurns(page);
+  await cellOpens(page, data);
+  if (screenshots) await keep(page, "light.png");
+  await darkIsDark(page);
+  if (screenshots) await keep(page, "dark.png");
+  await prints(page);
 }
 
-async function staticPage(browser) {
-  const { page, complaints } = await open(browser, "static.html");
+async function staticPage(page) {
+  await open(page, "static.html");
   assert.ok((await page.$$("svg")).length >= 12);
   assert.ok((await page.textContent("p")).includes("static figures"));
   assert.equal((await page.$$("script")).length, 0);
-  assert.deepEqual(complaints, []);
-  if (screenshots) await page.screenshot({ path: join(scratch, "static.png"), fullPage: true });
+  if (screenshots) await keep(page, "static.png");
 }
 
 const data = gather(laterna, source, scratch);
 const browser = await chromium.launch({ executablePath: chromiumPath, args: flags });
 try {
-  await wholePage(browser, data);
-  await staticPage(browser);
+  const { page, complaints } = await watched(browser);
+  try {
+    await wholePage(page, data);
+    await staticPage(page);
+    assert.deepEqual(complaints, []);
+  } catch (error) {
+    await keep(page, "failed.png");
+    throw error;
+  }
   figuresAreFiles();
 } finally {
   await browser.close();

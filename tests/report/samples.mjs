@@ -82,7 +82,8 @@ export function gather(laterna, source, scratch) {
   run("calibrate", "board.csv", "--camera-size", "1280x1024", "--projector-size", "1024x768", "-o", "all/board.json");
   run("report", "all", "-o", "page.html");
   run("report", "all", "-o", "static.html", "--static", "--figures", "figures");
-  const data = JSON.parse(run("report", "all", "--json"));
+  const page = readFileSync(join(scratch, "page.html"), "utf8");
+  const data = JSON.parse(page.match(/<script type="application\/json" id="data">(.*?)<\/script>/s)[1]);
   const json = (name) => JSON.parse(readFileSync(join(scratch, "all", name + ".json")));
   assert.deepEqual([data.result, data.board, data.chart, data.atlas.summary], ["result", "board", "chart", "atlas"].map(json));
   return data;
