@@ -97,7 +97,7 @@ void add_board_figures(const Json& board, std::vector<StaticFigure>& figures) {
     figures.push_back(board_rig(board));
   if (!board["cameras"].empty() && !board["projectors"].empty())
     figures.push_back(uncertainty_by_range(board));
-  if (board["held_out_px"].is_object() && !board.value("poses", Json::array()).empty())
+  if (board["held_out_px"].is_object() && !board["held_out_px"]["folds"].empty())
     figures.push_back(left_out_poses(board));
 }
 

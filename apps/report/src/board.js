@@ -120,7 +120,7 @@ export function board(data) {
         ),
       ),
     b.poses?.length > 0 &&
-      b.held_out_px &&
+      b.held_out_px?.folds.length > 0 &&
       figure(
         "Each pose left out in turn: error of its projector pixels",
         poses(b),
