@@ -1,9 +1,12 @@
 #include "apps/lab/roundtrip_folder.h"
 
 #include "apps/lab/decode_folder.h"
+#include "apps/lab/report/thumbnails.h"
+#include "apps/lab/report/trial_figures.h"
 #include "apps/lab/summary_picture.h"
 #include "apps/lab/trial_report.h"
 #include "render/effects/apply_effects.h"
+#include "sim/image_file.h"
 #include "sim/safe_write.h"
 
 #include <fmt/format.h>
@@ -21,7 +24,64 @@ struct Kept {
   const View* view;
   Image<float> white;
   DecodedMap decoded;
+  nlohmann::json frames;  // [{"label", "file"}]
 };
+
+std::string stem_of(const Scene& scene, const View& view) {
+  return fmt::format("{}_{}", scene.cameras[view.camera].device.name,
+                     scene.projectors[view.projector].device.name);
+}
+
+// The pictures, small, for people to leaf through.
+nlohmann::json write_frames(const Scene& scene, const View& view, const PatternSequence& sequence,
+                            const CapturedStack* pictures, int full_scale,
+                            const std::filesystem::path& root) {
+  nlohmann::json frames = nlohmann::json::array();
+  if (!pictures) return frames;
+  const std::string folder = "frames/" + stem_of(scene, view);
+  std::filesystem::create_directories(root / folder);
+  const std::vector<Image<std::uint8_t>> small = thumbnails(*pictures, full_scale);
+  const std::vector<std::string> labels = frame_labels(sequence, int(small.size()));
+  for (std::size_t k = 0; k < small.size(); ++k) {
+    frames.push_back({{"label", labels[k]}, {"file", fmt::format("{}/{:02}.png", folder, k)}});
+    write_picture(root / frames.back()["file"].get<std::string>(), small[k]);
+  }
+  return frames;
+}
+
+// Residuals, projections and the rig: trial_figures.h.
+nlohmann::json figures_json(const Scene& scene, const Traced& traced, const std::vector<Kept>& kept,
+                            const std::vector<ProjectorOutcome>& outcomes) {
+  nlohmann::json json{{"rig", rig_figure(scene)},
+                      {"points", nlohmann::json::array()},
+                      {"residuals", nlohmann::json::array()},
+                      {"projections", nlohmann::json::array()},
+                      {"views", nlohmann::json::array()}};
+  const std::vector<ToldPoints> told = told_points(scene, traced);
+  for (const Kept& k : kept) {
+    const ProjectorOutcome& o = outcomes[k.view->projector];
+    const glm::ivec2 size = scene.projectors[o.projector].device.intrinsics.size;
+    json["views"].push_back({{"camera", scene.cameras[k.view->camera].device.name},
+                             {"projector", o.name},
+                             {"projector_size", {size.x, size.y}},
+                             {"decoded", "decoded_" + stem_of(scene, *k.view) + ".exr"},
+                             {"frames", k.frames}});
+    if (o.solve.status == Status::refused) continue;
+    json["residuals"].push_back(residual_figure(k.decoded, told[k.view->camera].points_world,
+                                                o.solve.estimate, scene.cameras[k.view->camera].device.name,
+                                                o.name));
+  }
+  std::vector<glm::dvec3> all;
+  for (const ProjectorOutcome& o : outcomes) {
+    const std::vector<glm::dvec3> lit = lit_points(traced, o.projector);
+    all.insert(all.end(), lit.begin(), lit.end());
+    if (o.solve.status != Status::refused)
+      json["projections"].push_back(
+          projection_figure(scene.projectors[o.projector].device, o.solve.estimate, o.solve.covariance, lit));
+  }
+  json["points"] = points_figure(all);
+  return json;
+}
 
 Image<float> white_frame(const CapturedStack* pictures, const PatternSequence& sequence, const View& view,
                          int full_scale) {
@@ -82,18 +142,16 @@ void write_results(const Scene& scene, const std::string& scene_name, const Trac
   for (const ProjectorOutcome& o : out.outcomes) estimates.push_back(estimate_json(o.name, o.solve));
   for (const Kept& k : kept) {
     const ProjectorOutcome& outcome = out.outcomes[k.view->projector];
-    const std::string stem = fmt::format("{}_{}", scene.cameras[k.view->camera].device.name, outcome.name);
+    const std::string stem = stem_of(scene, *k.view);
     out.files.push_back("summary_" + stem + ".png");
     write_canvas(root / out.files.back(), summary_picture(panels_of(scene, scene_name, traced, k, outcome)));
     write_decoded(root / ("decoded_" + stem + ".exr"), k.decoded);
   }
-  for (const Kept& k : kept) {
-    out.files.push_back(fmt::format("decoded_{}_{}.exr", scene.cameras[k.view->camera].device.name,
-                                    out.outcomes[k.view->projector].name));
-  }
+  for (const Kept& k : kept) out.files.push_back("decoded_" + stem_of(scene, *k.view) + ".exr");
   write_file(root / "estimate.json", estimates_text(estimates));
   write_file(root / "result.json", trial_json(scene, out.outcomes, out.times).dump(2) + "\n");
-  out.files.insert(out.files.end(), {"estimate.json", "result.json"});
+  write_file(root / "figures.json", figures_json(scene, traced, kept, out.outcomes).dump() + "\n");
+  out.files.insert(out.files.end(), {"estimate.json", "result.json", "figures.json"});
 }
 
 }  // namespace
@@ -110,7 +168,8 @@ RoundtripOutput roundtrip(const Scene& scene, const std::string& scene_name,
     if (!folder) return;
     const int full_scale = (1 << scene.cameras[view.camera].sensor.bit_depth) - 1;
     const PatternSequence sequence = pattern_sequence(scene, scene.projectors[view.projector]);
-    kept.push_back({&view, white_frame(pictures, sequence, view, full_scale), decoded});
+    kept.push_back({&view, white_frame(pictures, sequence, view, full_scale), decoded,
+                    write_frames(scene, view, sequence, pictures, full_scale, folder->path())});
   };
   out.outcomes = run_trial(scene, traced, options, out.times, keep, progress);
   if (folder) {

@@ -339,7 +339,7 @@ TEST(Command, BadTablesAndWordsAreOneSentence) {
 TEST(Command, HelpBeginsWithAWorkingExample) {
   const ScratchFolder scratch;
   for (const char* name : {"new", "check", "info", "project", "preview", "live", "patterns", "capture",
-                           "decode", "calibrate", "verify", "roundtrip"}) {
+                           "decode", "calibrate", "verify", "roundtrip", "report"}) {
     const auto help = laterna(std::string(name) + " --help", scratch.path());
     EXPECT_EQ(help.exit_code, 0);
     EXPECT_EQ(help.out.find("Example: "), 0u) << help.out;
@@ -466,6 +466,24 @@ TEST(Command, ChartKeepsItsContractAndItsCommandsReproduce) {
   EXPECT_EQ(json::parse(again.out)["points"][0]["error_px"], point["error_px"]);
   EXPECT_EQ(laterna("chart sweep.toml -o out --json", scratch.path()).exit_code, 2);  // holds a run already
   EXPECT_EQ(laterna("chart sweep.toml -o out --resume --json", scratch.path()).out, run.out);
+}
+
+// A calibration's JSON becomes a page and figures beside it, or neither.
+TEST(Command, ReportLeavesAPageAndItsFigures) {
+  const ScratchFolder scratch;
+  write_text(scratch / "board.csv", board_table(6));
+  laterna("calibrate board.csv --camera-size 640x480 --projector-size 640x480 -o board.json", scratch.path());
+  std::filesystem::create_directory(scratch / "there");
+  const auto refused = laterna("report board.json --figures there", scratch.path());
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("there"));
+  EXPECT_EQ(listing(scratch.path()), "board.csv board.json there ");
+  const auto page = laterna("report board.json --figures figures", scratch.path());
+  EXPECT_EQ(page.exit_code, 0) << page.err;
+  EXPECT_THAT(page.out, HasSubstr("open board.html"));
+  EXPECT_THAT(listing(scratch / "figures"), HasSubstr("lens_ladder.svg"));
+  EXPECT_THAT(testing::read_text(scratch / "board.html"), HasSubstr("<!doctype html>"));
+  EXPECT_EQ(laterna("report nowhere", scratch.path()).exit_code, 2);
 }
 
 }  // namespace

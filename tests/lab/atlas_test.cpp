@@ -4,6 +4,7 @@
 #include "apps/lab/atlas/point_condition.h"
 #include "calib/solve.h"
 #include "calib/verify.h"
+#include "sim/image_file.h"
 #include "sim/safe_write.h"
 #include "sim/text_file.h"
 #include "tests/testing.h"
@@ -132,6 +133,21 @@ TEST(Atlas, ACellIsTheSameAlone) {
     }
   const Atlas sampled = run_atlas(file, folder / "some", {.seed = 9, .sample = 4});
   EXPECT_EQ(sampled.cells.size(), 4u);
+}
+
+// A cell of pictures leaves one: the camera's 400 px shrunk by 2, and as much again for the decoded columns.
+TEST(Atlas, ACellOfPicturesLeavesOneToLookAt) {
+  const ScratchFolder folder;
+  const std::string scene = std::string(LATERNA_SOURCE_DIR) + "/data/atlas/small.toml";
+  const auto file =
+      write_text(folder / "a.toml",
+                 "[[grid]]\nname = \"seen\"\nkind = \"pictures\"\nseeds = 1\nscene = \"" + scene + "\"\n");
+  const Atlas atlas = run_atlas(file, folder / "out", {});
+  ASSERT_EQ(atlas.cells.size(), 1u);
+  EXPECT_EQ(atlas_cells(atlas, "a")[0]["picture"], atlas.cells[0].picture);
+  const Picture picture = read_picture(folder / "out" / atlas.cells[0].picture);
+  EXPECT_EQ(picture.width, 400);
+  EXPECT_EQ(picture.height, 125);
 }
 
 TEST(Atlas, BadSpecificationsAreNamed) {

@@ -4,8 +4,10 @@
 #include "apps/lab/cell_seed.h"
 #include "apps/lab/grid_settings.h"
 #include "apps/lab/json_number.h"
+#include "apps/lab/shell_word.h"
 #include "calib/median.h"
 #include "sim/error.h"
+#include "sim/image_file.h"
 #include "sim/text_file.h"
 
 #include <fmt/format.h>
@@ -96,7 +98,27 @@ std::string without_numbers(const std::string& text) {
   return plain;
 }
 
-Json run_cell(const Planned& planned, std::uint64_t seed) {
+// The picture of the first seed that fared worst, under the folder; empty where there is none.
+std::string write_cell_picture(const Planned& planned, std::uint64_t seed, const std::string& letters,
+                               const std::filesystem::path& folder) {
+  if (planned.cell.kind != "pictures") return {};
+  const auto rank = [](char letter) { return outcome_letters.find(letter); };
+  const auto worst =
+      std::max_element(letters.begin(), letters.end(), [&](char a, char b) { return rank(a) < rank(b); });
+  try {
+    const CellProblem problem =
+        planned.trial(cell_seed(planned.cell.name, seed, int(worst - letters.begin())));
+    std::string file =
+        fmt::format("pictures/{:016x}.png", hash_of(planned.cell.method + ": " + planned.cell.name));
+    std::filesystem::create_directories(folder / "pictures");
+    write_picture(folder / file, problem.picture());
+    return file;
+  } catch (const std::exception&) {
+    return {};  // a crash is told by its letter and reason
+  }
+}
+
+Json run_cell(const Planned& planned, std::uint64_t seed, const std::filesystem::path& folder) {
   std::string letters;
   std::vector<double> errors, predictions;
   std::map<std::string, int> reasons;
@@ -111,10 +133,13 @@ Json run_cell(const Planned& planned, std::uint64_t seed) {
   std::stable_sort(sorted.begin(), sorted.end(),
                    [](const auto& a, const auto& b) { return a.second > b.second; });
   sorted.resize(std::min<std::size_t>(sorted.size(), 3));
-  return {{"letters", letters},
-          {"error_px", errors.empty() ? Json(nullptr) : finite_or_null(median(errors))},
-          {"predicted_px", predictions.empty() ? Json(nullptr) : finite_or_null(median(predictions))},
-          {"reasons", sorted}};
+  Json cell{{"letters", letters},
+            {"error_px", errors.empty() ? Json(nullptr) : finite_or_null(median(errors))},
+            {"predicted_px", predictions.empty() ? Json(nullptr) : finite_or_null(median(predictions))},
+            {"reasons", sorted}};
+  const std::string picture = write_cell_picture(planned, seed, letters, folder);
+  if (!picture.empty()) cell["picture"] = picture;
+  return cell;
 }
 
 void fill(AtlasCell& cell, const JobOutcome& outcome, int seeds) {
@@ -126,6 +151,7 @@ void fill(AtlasCell& cell, const JobOutcome& outcome, int seeds) {
     cell.error_px = number_or_nan(outcome.result, "error_px");
     cell.predicted_px = number_or_nan(outcome.result, "predicted_px");
     cell.reasons = outcome.result["reasons"].get<std::vector<std::pair<std::string, int>>>();
+    cell.picture = outcome.result.value("picture", "");
   }
   for (const char letter : cell.letters) ++cell.counts[outcome_letters.find(letter)];
 }
@@ -158,15 +184,15 @@ Atlas run_atlas(const std::filesystem::path& specification, const std::filesyste
   if (planned.empty()) throw InputError(specification.string() + ": no cell matches what is asked for");
   std::vector<Job> jobs;
   for (const Planned& p : planned)
-    jobs.push_back(
-        {p.cell.method + ": " + p.cell.name, [&p, &options] { return run_cell(p, options.seed); }});
+    jobs.push_back({p.cell.method + ": " + p.cell.name,
+                    [&p, &options, &folder] { return run_cell(p, options.seed, folder); }});
   const RunOutcome run = run_jobs(jobs,
                                   {.folder = folder,
                                    .fingerprint = fingerprint(text, options),
                                    .resume = options.resume,
                                    .noun = "cells"},
                                   progress);
-  Atlas atlas{{}, run.interrupted, run.done, jobs.size()};
+  Atlas atlas{{}, run.interrupted, run.done, jobs.size(), options.seed};
   for (std::size_t k = 0; k < planned.size(); ++k) {
     if (!run.jobs[k].done) continue;
     fill(planned[k].cell, run.jobs[k], planned[k].seeds);
@@ -219,6 +245,17 @@ Json atlas_letters(const Atlas& atlas) {
   return letters;
 }
 
+namespace {
+
+std::string command_of(const AtlasCell& cell, const std::string& specification, std::uint64_t seed) {
+  const std::string words = seed == 1 ? "" : fmt::format(" --seed {}", seed);
+  return fmt::format("laterna atlas {} --cell {} --method {}{} -o {}", shell_word(specification),
+                     shell_word(cell.name), cell.method, words,
+                     folder_name(cell.method + ": " + cell.name, "cell"));
+}
+
+}  // namespace
+
 Json atlas_cells(const Atlas& atlas, const std::string& specification) {
   Json cells = Json::array();
   for (const AtlasCell& c : atlas.cells) {
@@ -233,8 +270,8 @@ Json atlas_cells(const Atlas& atlas, const std::string& specification) {
                  {"error_px", finite_or_null(c.error_px)},
                  {"predicted_px", finite_or_null(c.predicted_px)},
                  {"reasons", c.reasons},
-                 {"command",
-                  fmt::format("laterna atlas {} --cell '{}' --method {}", specification, c.name, c.method)}});
+                 {"command", command_of(c, specification, atlas.seed)}});
+    if (!c.picture.empty()) json["picture"] = c.picture;
     cells.push_back(std::move(json));
   }
   return cells;

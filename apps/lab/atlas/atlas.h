@@ -30,12 +30,14 @@ struct AtlasCell {
   std::string letters;                               ///< one outcome per seed (outcome_letters)
   double error_px = NAN, predicted_px = NAN;         ///< medians over the seeds that answered
   std::vector<std::pair<std::string, int>> reasons;  ///< numbers left out, most frequent first, at most 3
+  std::string picture{};  ///< of the first seed that fared worst: a PNG in the folder; empty: none
 };
 
 struct Atlas {
   std::vector<AtlasCell> cells;  ///< in the order of the specification, method by method
   bool interrupted = false;
   std::size_t done = 0, all = 0;
+  std::uint64_t seed = 1;
 };
 
 /// Runs the cells of a specification: grids (grid_file.h) of the kinds of cell_kinds.h, with the settings
@@ -61,7 +63,8 @@ nlohmann::json atlas_summary(const Atlas& atlas);
 nlohmann::json atlas_letters(const Atlas& atlas);
 
 /// [{"grid", "cell", "kind", "method", "values", "hidden", "right", ..., "letters", "error_px",
-/// "predicted_px", "reasons": [[text, count]], "command"}]; `specification` is named in the commands.
+/// "predicted_px", "reasons": [[text, count]], "command"}], and "picture" where there is one; `specification`
+/// is named in the commands; each runs its cell alone, with the same seeds, in a folder of its own.
 nlohmann::json atlas_cells(const Atlas& atlas, const std::string& specification);
 
 /// The summary as a table, and Laterna's silently wrong and crashed cells by name.

@@ -31,6 +31,9 @@ struct CellAnswer {
 struct CellProblem {
   std::function<CellAnswer(const std::string& method)> solve;
   std::function<double()> bound_px;  ///< what noise alone does to error_px (Cramér-Rao); NaN: not known
+  /// To look at: what the first camera saw in white light, and beside it the columns that were decoded, in
+  /// viridis; only pictures have one.
+  std::function<Image<glm::u8vec3>()> picture{};
 };
 
 /// The answer under the five outcomes; where the method makes no prediction, the bound is held against it.

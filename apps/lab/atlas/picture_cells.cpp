@@ -1,5 +1,6 @@
 #include "apps/lab/atlas/cell_kinds.h"
 #include "apps/lab/noun_json.h"
+#include "apps/lab/report/thumbnails.h"
 #include "apps/lab/trial.h"
 #include "render/effects/apply_effects.h"
 #include "sim/scene_file.h"
@@ -90,6 +91,34 @@ CellAnswer round_trip(const Scene& scene, std::uint64_t seed) {
   return *worst;
 }
 
+Image<glm::u8vec3> beside(const Image<std::uint8_t>& left, const Image<glm::u8vec3>& right) {
+  Image<glm::u8vec3> both(left.width + right.width, std::max(left.height, right.height));
+  for (int y = 0; y < left.height; ++y)
+    for (int x = 0; x < left.width; ++x) both(x, y) = glm::u8vec3(left(x, y));
+  for (int y = 0; y < right.height; ++y)
+    for (int x = 0; x < right.width; ++x) both(left.width + x, y) = right(x, y);
+  return both;
+}
+
+// The round trip once more, for the first view's pictures.
+Image<glm::u8vec3> picture_of(const Scene& scene, std::uint64_t seed) {
+  StageTimes times;
+  TrialOptions options;
+  options.seed = options.solve.seed = seed;
+  const Traced traced = trace(scene, times);
+  Image<glm::u8vec3> picture;
+  const auto keep = [&](const View& view, const CapturedStack* pictures, const DecodedMap& decoded) {
+    if (&view != &traced.views.front() || !pictures) return;
+    const Projector& projector = scene.projectors[std::size_t(view.projector)];
+    const int full_scale = (1 << scene.cameras[std::size_t(view.camera)].sensor.bit_depth) - 1;
+    const std::vector<Image<std::uint8_t>> small = thumbnails(*pictures, full_scale);
+    picture = beside(small[std::size_t(white_picture(pattern_sequence(scene, projector)))],
+                     map_picture(decoded.u_px, 0, projector.device.intrinsics.size.x - 1, 384));
+  };
+  run_trial(scene, traced, options, times, keep);
+  return picture;
+}
+
 }  // namespace
 
 CellKind picture_cells() {
@@ -102,7 +131,8 @@ CellKind picture_cells() {
                   std::make_shared<const Scene>(load_scene(folder / condition.scene, condition.set));
               return CellTrial([scene](std::uint64_t seed) {
                 return CellProblem{[scene, seed](const std::string&) { return round_trip(*scene, seed); },
-                                   [] { return double(NAN); }};
+                                   [] { return double(NAN); },
+                                   [scene, seed] { return picture_of(*scene, seed); }};
               });
             } catch (const InputError& error) {
               throw InputError(fmt::format("{}: {}", place, error.what()));

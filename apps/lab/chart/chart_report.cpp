@@ -1,6 +1,7 @@
 #include "apps/lab/chart/chart_report.h"
 
 #include "apps/lab/json_number.h"
+#include "apps/lab/shell_word.h"
 #include "sim/error.h"
 #include "sim/parallel.h"
 #include "sim/plain_name.h"
@@ -18,30 +19,10 @@ using Json = nlohmann::json;
 
 double spread_px(const ChartPoint& p) { return p.error_px.high - p.error_px.low; }
 
-// In single quotes, for a shell.
-std::string quoted(const std::string& word) {
-  std::string text = "'";
-  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return text + "'";
-}
-
-// A name for a folder: letters, digits, dots; anything else becomes one dash.
-std::string folder_name(const std::string& label) {
-  std::string name;
-  for (const char c : label) {
-    const bool plain = std::isalnum(static_cast<unsigned char>(c)) || (c == '.' && !name.empty());
-    if (plain)
-      name += c;
-    else if (!name.empty() && name.back() != '-')
-      name += '-';
-  }
-  return name.empty() ? "point" : name;
-}
-
 std::string command_of(const ChartPoint& p, const std::string& specification, std::uint64_t seed) {
   const std::string words = seed == 1 ? "" : fmt::format(" --seed {}", seed);
-  return fmt::format("laterna chart {} --point {}{} -o {}", quoted(specification), quoted(p.label), words,
-                     folder_name(p.label));
+  return fmt::format("laterna chart {} --point {}{} -o {}", shell_word(specification), shell_word(p.label),
+                     words, folder_name(p.label, "point"));
 }
 
 Json labels_of(const Chart& chart, const std::vector<std::size_t>& indices) {
@@ -72,6 +53,16 @@ Json results_of(const ChartPoint& p) {
           {"capture_seconds", finite_or_null(p.capture_seconds)}};
 }
 
+void read_seconds(const Json& json, const std::string& against, ChartPoint& p) {
+  const bool ratios = json.contains("seconds_ratio");
+  p.seconds = number_or_nan(json, ratios ? "seconds_ratio" : "seconds");
+  p.seconds_low = ratios ? p.seconds : number_or_nan(json, "seconds_low");
+  p.seconds_high = ratios ? p.seconds : number_or_nan(json, "seconds_high");
+  p.x = against == "seconds"           ? p.seconds
+        : against == "capture_seconds" ? p.capture_seconds
+                                       : number_or_nan(p.values, against.c_str());
+}
+
 ChartPoint point_of(const Json& json, const std::string& against) {
   ChartPoint p;
   p.label = json.at("label"), p.series = json.at("series");
@@ -83,10 +74,7 @@ ChartPoint point_of(const Json& json, const std::string& against) {
   p.error_mm = number_or_nan(json, "error_mm"), p.bound_px = number_or_nan(json, "bound_px");
   p.bound = json.at("bound"), p.pictures = json.at("pictures");
   p.capture_seconds = number_or_nan(json, "capture_seconds");
-  p.seconds = p.seconds_low = p.seconds_high = number_or_nan(json, "seconds_ratio");
-  p.x = against == "seconds"           ? p.seconds
-        : against == "capture_seconds" ? p.capture_seconds
-                                       : number_or_nan(p.values, against.c_str());
+  read_seconds(json, against, p);
   return p;
 }
 
@@ -135,14 +123,20 @@ Json chart_reference(const Chart& chart) {
           {"pareto", labels_of(chart, pareto_front(chart.points))}};
 }
 
+Chart read_chart(const Json& json) {
+  Chart chart;
+  chart.name = json.at("chart"), chart.against = json.at("against");
+  for (const Json& point : json.at("points")) {
+    chart.points.push_back(point_of(point, chart.against));
+    chart.ratios |= point.contains("seconds_ratio");
+  }
+  chart.done = chart.all = chart.points.size();
+  return chart;
+}
+
 Chart read_chart_reference(const std::string& text, const std::string& place) {
   try {
-    const Json json = Json::parse(text);
-    Chart chart;
-    chart.name = json.at("chart"), chart.against = json.at("against"), chart.ratios = true;
-    for (const Json& point : json.at("points")) chart.points.push_back(point_of(point, chart.against));
-    chart.done = chart.all = chart.points.size();
-    return chart;
+    return read_chart(Json::parse(text));
   } catch (const Json::exception& error) {
     throw InputError(fmt::format("{}: no reference of a chart: {}", place, plain_json_message(error.what())));
   }

@@ -25,6 +25,10 @@ nlohmann::json chart_json(const Chart& chart, const std::string& specification, 
 /// ("seconds_ratio"), without stages, commands and threads.
 nlohmann::json chart_reference(const Chart& chart);
 
+/// What chart_json() or chart_reference() wrote; of the latter, seconds are ratios. Throws nlohmann's
+/// exception where a key is missing or of another type.
+Chart read_chart(const nlohmann::json& json);
+
 /// What chart_reference() wrote; seconds are ratios. Throws InputError, beginning with `place`, for anything
 /// else.
 Chart read_chart_reference(const std::string& text, const std::string& place);

@@ -57,6 +57,14 @@ void Svg::text(double x, double y, std::string_view words, double size, Anchor a
                        y, size, where, turn, xml_text(words));
 }
 
+void Svg::hinted_text(double x, double y, std::string_view words, double size, const std::string& colour,
+                      std::string_view hint) {
+  body_ += fmt::format(
+      "<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"{}\" text-anchor=\"middle\" "
+      "fill=\"{}\"><title>{}</title>{}</text>\n",
+      x, y, size, colour, xml_text(hint), xml_text(words));
+}
+
 void Svg::marker(double x, double y, int shape, const std::string& colour, std::string_view hint) {
   const std::string style = fmt::format("fill=\"{}\" stroke=\"{}\" stroke-width=\"1\"", colour, neutral_grey);
   const std::string title = hint.empty() ? "" : fmt::format("<title>{}</title>", xml_text(hint));
@@ -75,6 +83,20 @@ void Svg::marker(double x, double y, int shape, const std::string& colour, std::
 void Svg::ring(double x, double y, double radius, const Stroke& stroke) {
   body_ +=
       fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\" {}/>\n", x, y, radius, stroke_text(stroke));
+}
+
+void Svg::rect(double x, double y, double width, double height, const std::string& colour, double opacity) {
+  const std::string faint = opacity == 1 ? "" : fmt::format(" fill-opacity=\"{}\"", opacity);
+  body_ += fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"{}\"{}/>\n",
+                       x, y, width, height, colour, faint);
+}
+
+void Svg::strokes(const std::vector<std::array<double, 4>>& lines, const Stroke& stroke) {
+  if (lines.empty()) return;
+  std::string path;
+  for (const auto& [x0, y0, x1, y1] : lines)
+    path += fmt::format("M{:.1f} {:.1f}L{:.1f} {:.1f}", x0, y0, x1, y1);
+  body_ += fmt::format("<path d=\"{}\" stroke-linecap=\"round\" {}/>\n", path, stroke_text(stroke));
 }
 
 }  // namespace laterna

@@ -1,6 +1,7 @@
 // A small SVG writer: what a chart needs, in pixels from the upper left corner.
 #pragma once
 
+#include <array>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -31,9 +32,17 @@ class Svg {
   void text(double x, double y, std::string_view words, double size, Anchor anchor = Anchor::start,
             bool turned = false);
 
+  /// In the middle over x, in a colour of its own; `hint` is shown when a pointer rests on it.
+  void hinted_text(double x, double y, std::string_view words, double size, const std::string& colour,
+                   std::string_view hint);
+
   /// One of marker_shapes shapes of one area, outlined in grey; `hint` is shown when a pointer rests on it.
   void marker(double x, double y, int shape, const std::string& colour, std::string_view hint);
   void ring(double x, double y, double radius, const Stroke& stroke);
+  void rect(double x, double y, double width, double height, const std::string& colour, double opacity = 1);
+
+  /// Lines that are not joined, each {x0, y0, x1, y1}, as one element; of no length and round ends: dots.
+  void strokes(const std::vector<std::array<double, 4>>& lines, const Stroke& stroke);
 
   std::string str() const { return body_ + "</svg>\n"; }
 

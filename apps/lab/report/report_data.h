@@ -1,0 +1,26 @@
+// What Laterna left in a folder, as the one JSON that a report page draws.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+
+namespace laterna {
+
+/// {"format": "laterna-report", "version": 1, "title": name of the folder,
+///  "verdicts": [{"of", "status", "reason", "facts": [{"name", "value", "unit"}]}],
+///  "views": [{"camera", "projector", "valid_percent", "frames": [{"label", "image"}],
+///             "maps": [{"label", "low", "high", "unit", "image"}]}],
+///  "figures": {"rig", "points", "residuals", "projections"},  (trial_figures.h)
+///  "result", "estimate", "board", "chart", "atlas": {"summary", "cells"}}
+///
+/// and of these only what is there. Images are data URIs; a cell of the atlas that left a picture has
+/// "image". `path` is a folder or one JSON file, and each of these adds to the page: a round trip
+/// (result.json, figures.json and the files that it names), a capture (manifest.json; decoded anew, its
+/// estimate.json, where there is one, compared with the truth that it holds), a calibration from boards (any
+/// *.json by board_json()), a chart (chart.json), an atlas (atlas.json and cells.json). The files' numbers
+/// are taken over as they stand. Throws InputError where the path holds none of these, or one of them is
+/// malformed.
+nlohmann::json report_data(const std::filesystem::path& path);
+
+}  // namespace laterna

@@ -1,0 +1,50 @@
+// The page: a section for each thing that the data hold.
+import { h } from "./dom.js";
+import { summary } from "./summary.js";
+import { frames } from "./frames.js";
+import { boardRig, rig } from "./rig.js";
+import { residuals } from "./residuals.js";
+import { projections } from "./projection.js";
+import { board } from "./board.js";
+import { chart } from "./chart.js";
+import { atlas } from "./atlas.js";
+import css from "./page.css";
+
+const data = JSON.parse(document.getElementById("data").textContent);
+const figures = data.figures;
+
+const sections = [
+  summary,
+  data.views && frames,
+  figures && rig,
+  figures?.residuals.length && residuals,
+  figures?.projections.length && projections,
+  data.board?.cameras.length && data.board.poses.length && boardRig,
+  data.board && board,
+  data.chart && chart,
+  data.atlas && atlas,
+]
+  .filter(Boolean)
+  .map((draw) => draw(data));
+
+const links = sections.map((section) => h("li", {}, h("a", { href: "#" + section.id }, section.querySelector("h2").textContent)));
+
+document.head.append(h("style", {}, css));
+document
+  .getElementById("report")
+  .replaceWith(
+    h("a", { class: "skip", href: "#main" }, "Skip to the report"),
+    h(
+      "header",
+      {},
+      h("h1", {}, data.title),
+      h(
+        "p",
+        {},
+        "A report by Laterna. The numbers are those of its files, in four digits; all of them show where a pointer rests.",
+      ),
+    ),
+    h("nav", { "aria-label": "Sections" }, h("ul", {}, links)),
+    h("main", { id: "main", tabindex: -1 }, sections),
+  );
+document.documentElement.dataset.ready = "yes";
