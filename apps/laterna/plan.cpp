@@ -35,13 +35,17 @@ fs::path default_out(const fs::path& scene, bool resume) {
   }
 }
 
-// A refusal leaves no folder that was not there.
+// A refusal leaves no folder that was not there, bad input no empty one.
 Plan planned(const Words& words, const PlanOptions& options, const fs::path& work, const Common& common) {
   const bool is_new = !fs::exists(work);
   try {
     return make_plan(words.scene, work, options, [&](const std::string& line) { progress(common, line); });
   } catch (const Refusal&) {
     if (is_new) fs::remove_all(work);
+    throw;
+  } catch (const InputError&) {
+    std::error_code not_empty;
+    if (is_new) fs::remove(work, not_empty);
     throw;
   }
 }
