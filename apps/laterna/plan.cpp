@@ -2,6 +2,7 @@
 
 #include "apps/lab/plan/plan_report.h"
 #include "apps/laterna/command.h"
+#include "apps/laterna/scene_words.h"
 #include "sim/error.h"
 #include "sim/safe_write.h"
 
@@ -17,7 +18,8 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Words {
-  std::string scene, out, work;
+  SceneWords scene;
+  std::string out, work;
   PlanOptions options;
 };
 
@@ -39,7 +41,8 @@ fs::path default_out(const fs::path& scene, bool resume) {
 Plan planned(const Words& words, const PlanOptions& options, const fs::path& work, const Common& common) {
   const bool is_new = !fs::exists(work);
   try {
-    return make_plan(words.scene, work, options, [&](const std::string& line) { progress(common, line); });
+    return make_plan(words.scene.file, work, options,
+                     [&](const std::string& line) { progress(common, line); });
   } catch (const Refusal&) {
     if (is_new) fs::remove_all(work);
     throw;
@@ -52,17 +55,17 @@ Plan planned(const Words& words, const PlanOptions& options, const fs::path& wor
 
 int run(const Words& words, const Common& common) {
   const fs::path out =
-      words.out.empty() ? default_out(words.scene, words.options.resume) : fs::path(words.out);
+      words.out.empty() ? default_out(words.scene.file, words.options.resume) : fs::path(words.out);
   const fs::path work = words.work.empty() ? work_folder_of(out) : fs::path(words.work);
   check_output(out.string());
   PlanOptions options = words.options;
-  options.seed = common.seed;
+  options.seed = common.seed, options.set = words.scene.set;
   const Plan plan = planned(words, options, work, common);
   if (plan.interrupted) {
     fmt::print(stderr, "laterna: interrupted; the same command with --resume goes on\n");
     return exit_interrupted;
   }
-  write_file(out, planned_scene_toml(plan, words.scene, out));
+  write_file(out, planned_scene_toml(plan, words.scene.file, out));
   if (words.work.empty()) {
     fs::remove_all(work);
   } else {
@@ -92,7 +95,7 @@ void add_plan(CLI::App& app, Common& common) {
       "Ctrl-C leaves what is done; --resume goes on. Exit code: 0 ok, 2 bad input, 3 the full scene is "
       "refused, "
       "5 interrupted.");
-  command->add_option("SCENE", words->scene, "Scene file (TOML)")->required();
+  add_scene_words(*command, words->scene);
   command
       ->add_option("--tolerance-px", words->options.tolerance_px,
                    "By how much the answer may change, rms over the volume, projector pixels")

@@ -80,5 +80,33 @@ TEST(Command, PlanSaysWhatIsWrong) {
   EXPECT_THAT(laterna("plan --help", scratch.path()).out, StartsWith("Example: laterna plan"));
 }
 
+// The same keys and values as in a file of their own.
+TEST(Command, SetChangesKeysOfTheScene) {
+  const ScratchFolder scratch;
+  write_text(scratch / "dome.toml", scene);
+  std::string other = scene;
+  write_text(scratch / "other.toml",
+             other.replace(other.find("[224, 140]"), 10, "[256, 160]") + "pitch_px = 16\n");
+  const std::string set = "--set camera.size=[256,160] --set patterns.pitch_px=16 ";
+  const auto results = [&](const std::string& words) {
+    const auto run = laterna(words, scratch.path());
+    EXPECT_EQ(run.exit_code, 0) << words << run.err;
+    json result = json::parse(run.out);
+    if (result.contains("projectors") && result["projectors"].is_array())
+      for (json& projector : result["projectors"]) projector.erase("seconds");
+    result.erase("seconds");
+    return result;
+  };
+  for (const std::string command : {"roundtrip ", "info "}) {
+    EXPECT_EQ(results(command + set + "dome.toml --json"), results(command + "other.toml --json"));
+    EXPECT_NE(results(command + "dome.toml --json"), results(command + "other.toml --json"));
+  }
+  EXPECT_EQ(laterna("check dome.toml --set effects.shadow=false", scratch.path()).exit_code, 0);
+  const auto wrong = laterna("check dome.toml --set effects.shadows=false", scratch.path());
+  EXPECT_EQ(wrong.exit_code, 2);
+  EXPECT_THAT(wrong.err, HasSubstr("did you mean \"shadow\""));
+  EXPECT_EQ(laterna("check dome.toml --set effects", scratch.path()).exit_code, 2);
+}
+
 }  // namespace
 }  // namespace laterna::testing

@@ -8,6 +8,7 @@
 #include "sim/text_file.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <optional>
@@ -220,16 +221,16 @@ Plan make_plan(const std::filesystem::path& scene_file, const std::filesystem::p
                const PlanOptions& options, const Progress& progress) {
   check_options(options);
   const std::string text = read_text(scene_file, std::size_t(16) << 20);
-  const SceneSpec spec = parse_scene(text, scene_file.string());
+  const SceneSpec spec = parse_scene(text, scene_file.string(), options.set);
   const Scene scene = checked_scene(spec, scene_file);
   const std::filesystem::path scene_folder = scene_file.parent_path();
   const std::vector<Choice> choices = choices_of(spec, scene, scene_folder);
-  const RunnerOptions runner{
-      .folder = folder,
-      .fingerprint = fmt::format("plan {:016x} seed {} seeds {} tolerance {}", hash_of(text), options.seed,
-                                 options.seeds, options.tolerance_px),
-      .resume = options.resume,
-      .parallel = false};
+  const RunnerOptions runner{.folder = folder,
+                             .fingerprint = fmt::format("plan {:016x} set {} seed {} seeds {} tolerance {}",
+                                                        hash_of(text), fmt::join(options.set, "|"),
+                                                        options.seed, options.seeds, options.tolerance_px),
+                             .resume = options.resume,
+                             .parallel = false};
   PlanTrials trials(spec, scene_folder, choices, runner, options, progress);
   Plan plan;
   plan.tolerance_px = options.tolerance_px;

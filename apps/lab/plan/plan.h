@@ -19,6 +19,7 @@ struct PlanOptions {
   int seeds = 3;            ///< of every comparison, at least 2; four times as many where 3 cannot tell
   std::uint64_t seed = 1;   ///< all seeds are drawn from it
   bool resume = false;
+  std::vector<std::string> set{};  ///< keys of the scene at other values, as parse_scene() takes them
 };
 
 /// A level of a choice, tried alone at low cost.
