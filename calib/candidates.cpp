@@ -35,6 +35,7 @@ PointTable thinned(const PointTable& points, std::size_t wanted) {
     t.inverse_sigma.push_back(points.inverse_sigma[i]);
   }
   t.cluster_begin = {0, t.x.size()};
+  t.prior = points.prior;
   return t;
 }
 
@@ -95,6 +96,48 @@ bool ends_well(const std::optional<Refinement>& end, const Context& c) {
   return s && residual_scale(*s, c.lens.parameter_count() + 6, c.refine.loss) < good_residual_scale;
 }
 
+// Another end with nearly as little loss, turned against the best by more than its points could hide.
+std::string ambiguity_of(const Refinement& best, const std::vector<Refinement>& ends, const Context& c) {
+  constexpr double alike = 20, apart_rad = 1e-3;  // e^10 in likelihood
+  const auto s = squared_residuals(c.points, c.lens, best.state);
+  const double scale = s ? residual_scale(*s, 6, c.refine.loss) : 1;
+  for (const Refinement& end : ends) {
+    const glm::dmat3 turn =
+        end.state.device_from_points.rotation * glm::transpose(best.state.device_from_points.rotation);
+    const double angle = std::acos(std::clamp((turn[0][0] + turn[1][1] + turn[2][2] - 1) / 2, -1.0, 1.0));
+    if (!end.converged || angle < apart_rad || end.loss > best.loss + alike * std::max(1.0, scale * scale))
+      continue;
+    return fmt::format(
+        "another placement, turned by {:.2g} deg, explains the points as well: a deeper scene, or pixels "
+        "over "
+        "more of the image, would tell them apart",
+        angle * 180 / std::numbers::pi);
+  }
+  return "";
+}
+
+BestRefinement best_placement(const Context& c, const KnownIntrinsics& known, const GeometryReport& geometry,
+                              const SolveOptions& options) {
+  ProjectorState state = state_of(Device{"", known.intrinsics, {}, known.lens, {}});
+  const bool coplanar = geometry.spread_m.z < thin_relief * geometry.spread_m.x;
+  auto starts = placement_starts(c.points, state, LensProjection(known.intrinsics, known.lens), coplanar,
+                                 c.refine.loss.kind != RobustLoss::Kind::none);
+  if (options.start) {
+    state.device_from_points = device_from_normalised(options.start->device_from_world, c.normalisation);
+    starts.push_back(state);
+  }
+  std::vector<Refinement> ends;
+  std::optional<Refinement> best;
+  for (const ProjectorState& start : starts) {
+    const auto end = refine(c.points, c.lens, start, c.refine);
+    if (!end) continue;
+    ends.push_back(*end);
+    keep_better(best, end);
+  }
+  if (!best) return {std::nullopt, "no placement of the known projector has all points in front of it", {}};
+  return {best, {}, ambiguity_of(*best, ends, c)};
+}
+
 }  // namespace
 
 double residual_scale(std::vector<double> s, int parameter_count, const RobustLoss& loss) {
@@ -114,8 +157,9 @@ BestRefinement best_refinement(const Correspondences& correspondences, const Poi
   if (points.size() > enough_points) {
     const Correspondences few =
         subset(correspondences, evenly_spread(correspondences.world_points.size(), enough_points));
-    BestRefinement best =
-        best_refinement(few, point_table(few, normalisation), normalisation, size, lens, geometry, options);
+    PointTable table = point_table(few, normalisation);
+    table.prior = points.prior;
+    BestRefinement best = best_refinement(few, table, normalisation, size, lens, geometry, options);
     if (!best.refinement || !best.refinement->converged) return best;
     best.refinement = refine(points, lens, best.refinement->state,
                              {options.loss, options.max_iterations, double(std::max(size.x, size.y))});
@@ -128,6 +172,7 @@ BestRefinement best_refinement(const Correspondences& correspondences, const Poi
                   size,
                   lens,
                   {options.loss, options.max_iterations, double(std::max(size.x, size.y))}};
+  if (options.known) return best_placement(c, *options.known, geometry, options);
   std::optional<Refinement> best;
   if (options.start) {
     ProjectorState start = state_of(*options.start);
@@ -142,16 +187,17 @@ BestRefinement best_refinement(const Correspondences& correspondences, const Poi
     linear.push_back(ransac_dlt(correspondences, size, ransac));
   }
   for (const auto& result : linear) {
-    if (clearly_impossible(result, c)) return {std::nullopt, result.reason};
+    if (clearly_impossible(result, c)) return {std::nullopt, result.reason, {}};
     if (result.status == DltStatus::ok)
       keep_better(best, refine(points, lens, start_of(result, c), c.refine));
   }
   const bool thin = geometry.spread_m.z < thin_relief * geometry.spread_m.x;
   if (thin || !ends_well(best, c)) try_nominal(c, linear.back().inliers, best);
-  if (best) return {std::move(best), {}};
+  if (best) return {std::move(best), {}, {}};
   const std::string& why = linear.front().reason;
   return {std::nullopt,
-          "no start keeps all points in front of the projector" + (why.empty() ? why : ": " + why)};
+          "no start keeps all points in front of the projector" + (why.empty() ? why : ": " + why),
+          {}};
 }
 
 }  // namespace laterna

@@ -13,7 +13,8 @@ namespace laterna {
 
 struct BestRefinement {
   std::optional<Refinement> refinement;
-  std::string refusal;  ///< why there is none
+  std::string refusal;    ///< why there is none
+  std::string ambiguity;  ///< another placement that the points cannot tell from it, in a sentence
 };
 
 /// Where residuals stand against the sigmas: sqrt(Σs/(2n - p)), or with a robust loss sqrt(median(s)/(2·ln
@@ -21,7 +22,7 @@ struct BestRefinement {
 double residual_scale(std::vector<double> squared_residuals, int parameter_count, const RobustLoss& loss);
 
 /// Refines from every start that solve() describes; of more than 40,000 points, that many choose the start.
-/// `points` are the correspondences in normalised coordinates.
+/// `points` are the correspondences in normalised coordinates; with a prior, placements alone are sought.
 BestRefinement best_refinement(const Correspondences& correspondences, const PointTable& points,
                                const WorldNormalisation& normalisation, glm::ivec2 size,
                                const LensGradient& lens, const GeometryReport& geometry,

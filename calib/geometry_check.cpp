@@ -69,7 +69,9 @@ GeometryReport check_geometry(const Correspondences& c, int parameter_count) {
     report.verdict = verdict, report.reason = std::move(reason);
     return report;
   };
-  const std::size_t n = c.world_points.size(), needed = std::max(6, (parameter_count + 1) / 2);
+  const bool placement = parameter_count == 6;
+  const std::size_t n = c.world_points.size(),
+                    needed = placement ? 4 : std::max(6, (parameter_count + 1) / 2);
   if (n < needed) {
     return say(Geometry::too_few, fmt::format("{} correspondences, a projector with {} parameters needs at "
                                               "least {}",
@@ -97,10 +99,11 @@ GeometryReport check_geometry(const Correspondences& c, int parameter_count) {
       pixels.standard_deviation[0] == 0) {
     return say(Geometry::pixels_collinear, "all projector pixels lie on one line or are the same pixel");
   }
-  if (s[2] <= threshold) {
-    return say(Geometry::coplanar, "all world points lie in one plane (their third spread is " +
-                                       fraction(s[2], s[0]) +
-                                       "): focal length and distance cannot be told apart");
+  if (s[2] <= threshold && !placement) {
+    return say(Geometry::coplanar,
+               "all world points lie in one plane (their third spread is " + fraction(s[2], s[0]) +
+                   "): focal length and distance cannot be told apart, a placement with known "
+                   "intrinsics can");
   }
   return report;
 }

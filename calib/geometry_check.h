@@ -18,10 +18,11 @@ struct GeometryReport {
   glm::dvec3 thin_axis_world{0.0, 0.0, 1.0};  ///< unit vector of the smallest spread
 };
 
-/// Refuses fewer than max(6, parameter_count/2) different points; points whose second (collinear) or third
-/// (coplanar) spread is at most 1e-9 of the first, or lost in the rounding of far coordinates (8 ulp of the
-/// largest); pixels that are all the same or on one line (second spread at most 1e-9 of the first). Thin
-/// relief passes: it shows in the predicted error. The correspondences must be valid.
+/// Refuses fewer than max(6, parameter_count/2) different points (a placement alone, 6 parameters: 4, and
+/// coplanar ones pass); points whose second (collinear) or third (coplanar) spread is at most 1e-9 of the
+/// first, or lost in the rounding of far coordinates (8 ulp of the largest); pixels that are all the same or
+/// on one line (second spread at most 1e-9 of the first). Thin relief passes: it shows in the predicted
+/// error. The correspondences must be valid.
 GeometryReport check_geometry(const Correspondences& correspondences, int parameter_count);
 
 /// Thickness over throw: the peak-to-peak extent of the points along their thin axis over their centroid's

@@ -3,6 +3,8 @@
 #include "calib/row_kernels.h"
 #include "sim/parallel.h"
 
+#include <Eigen/Dense>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -12,6 +14,8 @@ namespace laterna {
 namespace {
 
 constexpr std::size_t group = group_points, chunk = 4096;
+
+using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 PlainPinhole pinhole_of(const ProjectorState& s) {
   PlainPinhole p{s.parameters[0], s.parameters[1], s.parameters[2], s.parameters[3], {}, {}};
@@ -205,6 +209,34 @@ bool fill_rows(const PointTable& points, const LensGradient& lens, const Project
   return true;
 }
 
+namespace {
+
+// The factor of the rows of a factor and those of a prior.
+std::vector<double> with_prior(const std::vector<double>& factor, const IntrinsicsPrior& prior,
+                               const ProjectorState& state, int columns) {
+  const int k = int(prior.mean.size());
+  RowMajor rows = RowMajor::Zero(columns + k, columns);
+  rows.topRows(columns) = Eigen::Map<const RowMajor>(factor.data(), columns, columns);
+  for (int i = 0; i < k; ++i) {
+    rows(columns + i, i) = prior.inverse_sigma[i];
+    rows(columns + i, columns - 1) = prior.inverse_sigma[i] * (state.parameters[i] - prior.mean[i]);
+  }
+  const Eigen::MatrixXd full = rows.householderQr().matrixQR();
+  const RowMajor r = full.topRows(columns).triangularView<Eigen::Upper>();
+  return {r.data(), r.data() + r.size()};
+}
+
+double prior_loss(const IntrinsicsPrior& prior, const ProjectorState& state) {
+  double sum = 0;
+  for (std::size_t i = 0; i < prior.mean.size(); ++i) {
+    const double off = prior.inverse_sigma[i] * (state.parameters[i] - prior.mean[i]);
+    sum += off * off;
+  }
+  return sum;
+}
+
+}  // namespace
+
 std::optional<std::vector<double>> row_factor(const PointTable& points, const LensGradient& lens,
                                               const ProjectorState& state, const RobustLoss& loss) {
   StackedRows rows;
@@ -218,7 +250,9 @@ std::optional<std::vector<double>> row_factor(const PointTable& points, const Le
   rows.fill = [&](std::size_t begin, std::size_t end, const RowBlock& block) {
     return fill_rows(points, lens, state, loss, begin, end, block);
   };
-  return triangular_factor(rows);
+  auto factor = triangular_factor(rows);
+  if (!factor || points.prior.mean.empty()) return factor;
+  return with_prior(*factor, points.prior, state, rows.columns);
 }
 
 std::optional<std::vector<double>> squared_residuals(const PointTable& points, const LensGradient& lens,
@@ -251,7 +285,7 @@ std::optional<double> total_loss(const PointTable& points, const LensGradient& l
       for (std::size_t j = 0; j < count; ++j) sums[k] += loss.rho(s[j]);
     }
   });
-  const double sum = std::accumulate(sums.begin(), sums.end(), 0.0);
+  const double sum = std::accumulate(sums.begin(), sums.end(), prior_loss(points.prior, state));
   if (!std::isfinite(sum)) return std::nullopt;
   return sum;
 }

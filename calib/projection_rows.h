@@ -34,9 +34,16 @@ struct ProjectorState {
 };
 ProjectorState state_of(const Device& device);
 
+/// What is known of fx, fy, cx, cy and the lens parameters before any point: Gaussian, independent. Empty:
+/// nothing.
+struct IntrinsicsPrior {
+  std::vector<double> mean, inverse_sigma;
+};
+
 /// Correspondences as columns, in normalised coordinates, sorted by cluster (stable).
 struct PointTable {
   std::vector<double> x, y, z, u, v, inverse_sigma;
+  IntrinsicsPrior prior;  ///< rows of row_factor() and terms of total_loss() beside the points'
   std::vector<std::size_t> cluster_begin;  ///< cluster g holds the points [begin[g], begin[g + 1])
   std::size_t size() const { return x.size(); }
   std::size_t cluster_count() const { return cluster_begin.size() - 1; }
@@ -53,7 +60,8 @@ bool project_with_rows(const LensGradient& lens, const ProjectorState& state, co
 bool fill_rows(const PointTable& points, const LensGradient& lens, const ProjectorState& state,
                const RobustLoss& loss, std::size_t begin, std::size_t end, const RowBlock& block);
 
-/// R of all rows [J | r] (stacked_qr.h), (p + 1)×(p + 1). None where a point lies behind the device.
+/// R of all rows [J | r] (stacked_qr.h), the prior's (k - mean)/sigma among them, (p + 1)×(p + 1). None where
+/// a point lies behind the device.
 std::optional<std::vector<double>> row_factor(const PointTable& points, const LensGradient& lens,
                                               const ProjectorState& state, const RobustLoss& loss);
 
@@ -61,7 +69,8 @@ std::optional<std::vector<double>> row_factor(const PointTable& points, const Le
 std::optional<std::vector<double>> squared_residuals(const PointTable& points, const LensGradient& lens,
                                                      const ProjectorState& state);
 
-/// Σ ρ(s), summed in a fixed order. None where a point lies behind the device.
+/// Σ ρ(s), summed in a fixed order, and Σ ((k - mean)/sigma)² of the prior. None where a point lies behind
+/// the device.
 std::optional<double> total_loss(const PointTable& points, const LensGradient& lens,
                                  const ProjectorState& state, const RobustLoss& loss);
 

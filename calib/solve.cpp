@@ -4,6 +4,7 @@
 #include "calib/candidates.h"
 #include "calib/covariance.h"
 #include "calib/lens_left_out.h"
+#include "calib/placement.h"
 #include "calib/residual_structure.h"
 #include "calib/verify.h"
 #include "sim/error.h"
@@ -28,6 +29,25 @@ SolveResult refused(SolveResult& result, std::string reason) {
   return std::move(result);
 }
 
+void validate_known(glm::ivec2 size, const KnownIntrinsics& known) {
+  validate(known.intrinsics, "known projector");
+  if (known.intrinsics.size != size) {
+    throw InputError(
+        fmt::format("solve: the known intrinsics are of {} × {} px, expected the projector's {} × {}",
+                    known.intrinsics.size.x, known.intrinsics.size.y, size.x, size.y));
+  }
+  const std::size_t k = 4 + std::size_t(lens_parameter_count(known.lens.model));
+  if (4 + known.lens.parameters.size() != k || (!known.sigma.empty() && known.sigma.size() != k)) {
+    throw InputError(fmt::format(
+        "solve: known intrinsics with {} lens parameters and {} sigmas, expected {} and {} for {}",
+        known.lens.parameters.size(), known.sigma.size(), k - 4, k, known.lens.model));
+  }
+  for (const double s : known.sigma)
+    if (!(s >= 0) || !std::isfinite(s))
+      throw InputError(
+          fmt::format("solve: a sigma of the known intrinsics is {}, expected a number from 0", s));
+}
+
 void validate_options(glm::ivec2 size, const SolveOptions& options) {
   validate(Intrinsics{size, 1, 1, 0, 0}, "projector");
   if (!(options.tolerance_px > 0)) {
@@ -38,9 +58,10 @@ void validate_options(glm::ivec2 size, const SolveOptions& options) {
     throw InputError(fmt::format("solve: the robust loss has the scale {} sigmas, expected a positive number",
                                  options.loss.scale_sigmas));
   }
+  if (options.known) validate_known(size, *options.known);
   if (!options.start) return;
   validate(*options.start);
-  if (options.start->lens.model != options.lens_model) {
+  if (options.start->lens.model != (options.known ? options.known->lens.model : options.lens_model)) {
     throw InputError(fmt::format("solve: the start has the lens {}, expected {}", options.start->lens.model,
                                  options.lens_model));
   }
@@ -56,8 +77,9 @@ Device device_of(const ProjectorState& state, glm::ivec2 size, const std::string
   return device;
 }
 
-void describe_fit(SolveResult& result, const PointTable& points, const std::vector<double>& s, int p,
+void describe_fit(SolveResult& result, const PointTable& points, const std::vector<double>& s,
                   const RobustLoss& loss) {
+  const int p = result.free_parameters;
   double sum = 0, weighted = 0, outliers = 0;
   for (std::size_t i = 0; i < s.size(); ++i) {
     sum += s[i] / (points.inverse_sigma[i] * points.inverse_sigma[i]);
@@ -81,7 +103,8 @@ bool predict(SolveResult& result, const std::vector<glm::dvec3>& world_points) {
   };
   const double independent = prediction(result.covariance_independent);
   const double clustered = prediction(result.covariance_clustered);
-  result.clusters_suffice = result.clusters >= 3 * std::size_t(p) && !result.covariance_clustered.empty();
+  result.clusters_suffice =
+      result.clusters >= 3 * std::size_t(result.free_parameters) && !result.covariance_clustered.empty();
   const bool use_clustered = result.clusters_suffice || clustered > independent;
   result.covariance = use_clustered ? result.covariance_clustered : result.covariance_independent;
   // Residuals near rounding say nothing of where the refinement stopped.
@@ -102,7 +125,7 @@ bool predict(SolveResult& result, const std::vector<glm::dvec3>& world_points) {
 std::vector<std::string> weaknesses(const SolveResult& r, const Correspondences& c,
                                     const SolveOptions& options, bool maps_its_volume) {
   std::vector<std::string> w;
-  const double n = double(c.world_points.size()), p = double(r.parameter_names.size());
+  const double n = double(c.world_points.size()), p = r.free_parameters;
   const std::string trade =
       fmt::format("{}; the relief is {:.2g} % of the throw", r.weakest_direction, 100 * r.relief_over_throw);
   if (!maps_its_volume) w.push_back("the estimated lens maps no ray to parts of the projector's image");
@@ -139,7 +162,7 @@ std::vector<std::string> weaknesses(const SolveResult& r, const Correspondences&
     w.push_back(
         fmt::format("only {} blocks of the camera image hold correspondences and {} are needed: how far "
                     "errors are correlated cannot be told",
-                    r.clusters, 3 * r.parameter_names.size()));
+                    r.clusters, 3 * r.free_parameters));
   }
   return w;
 }
@@ -149,7 +172,7 @@ std::vector<std::string> weaknesses(const SolveResult& r, const Correspondences&
 std::string lens_weakness(const SolveResult& r, const PointTable& points, const ProjectorState& state,
                           const WorldNormalisation& normalisation, const Correspondences& c,
                           const SolveOptions& options) {
-  if (options.lens_model != "LENSMODEL_PINHOLE" || !r.covariance_camera.empty()) return "";
+  if (!is_pinhole(r.estimate.lens) || !r.covariance_camera.empty()) return "";
   const auto left = lens_left_out(points, state, options.loss, normalisation, r.estimate.intrinsics.size);
   if (!left || left->wald < lens_is_there) return "";
   const auto volume = image_grid(r.estimate, volume_depths(depths_of(r.estimate, c.world_points)));
@@ -187,25 +210,28 @@ std::string structure_weakness(const SolveResult& r, const PointTable& points, c
 SolveResult solve(const Correspondences& c, glm::ivec2 size, const SolveOptions& options) {
   validate(c);
   validate_options(size, options);
-  const LensGradient lens(options.lens_model);
+  const std::string& lens_model = options.known ? options.known->lens.model : options.lens_model;
+  const LensGradient lens(lens_model);
   const int p = lens.parameter_count() + 6;
   SolveResult result;
+  result.free_parameters = options.known ? 6 : p;
   result.parameter_names = parameter_names(lens.parameter_count() - 4);
-  const GeometryReport geometry = check_geometry(c, p);
+  const GeometryReport geometry = check_geometry(c, result.free_parameters);
   if (geometry.verdict != Geometry::sound) return refused(result, geometry.reason);
 
   const WorldNormalisation normalisation = normalisation_of(c.world_points);
-  const PointTable points = point_table(c, normalisation);
+  PointTable points = point_table(c, normalisation);
+  if (options.known) points.prior = prior_of(*options.known);
   const BestRefinement best = best_refinement(c, points, normalisation, size, lens, geometry, options);
   if (!best.refinement) return refused(result, best.refusal);
   const Refinement& fit = *best.refinement;
   result.iterations = fit.iterations;
   result.termination = fit.termination;
-  result.estimate = device_of(fit.state, size, options.lens_model, normalisation);
+  result.estimate = device_of(fit.state, size, lens_model, normalisation);
   result.relief_over_throw = relief_over_throw(c, geometry, result.estimate.device_from_world);
   const auto squared = squared_residuals(points, lens, fit.state);
   if (!squared) return refused(result, "some points lie behind the projector that fits best");
-  describe_fit(result, points, *squared, p, options.loss);
+  describe_fit(result, points, *squared, options.loss);
 
   const Spectrum spectrum = scaled_spectrum(fit.factor, p);
   result.scaled_singular_values = spectrum.singular_values;
@@ -246,6 +272,7 @@ SolveResult solve(const Correspondences& c, glm::ivec2 size, const SolveOptions&
   for (const std::string& words : {lens_weakness(result, points, fit.state, normalisation, c, options),
                                    structure_weakness(result, points, lens, fit.state, options.tolerance_px)})
     if (!words.empty()) weak.push_back(words);
+  if (!best.ambiguity.empty()) weak.push_back(best.ambiguity);
   result.status = weak.empty() ? Status::ok : Status::weak;
   result.reason = fmt::format("{}", fmt::join(weak, "; "));
   return result;

@@ -12,6 +12,15 @@
 
 namespace laterna {
 
+/// Intrinsics and lens that are known before any point is seen.
+struct KnownIntrinsics {
+  Intrinsics intrinsics;
+  Lens lens;
+  /// Standard deviations of fx, fy, cx, cy (px) and the lens parameters, independent of one another; 0 is
+  /// exact (held to 1e-6 px, a lens parameter to 1e-9). Empty: all exact.
+  std::vector<double> sigma{};
+};
+
 struct SolveOptions {
   std::string lens_model = "LENSMODEL_PINHOLE";  ///< its parameters are solved for, from zero
   RobustLoss loss;                               ///< none: every residual is believed
@@ -19,6 +28,9 @@ struct SolveOptions {
   int max_iterations = 500;
   std::uint64_t seed = 1;       ///< of RANSAC
   std::optional<Device> start;  ///< tried beside the linear starts; of the same lens model
+  /// The placement alone is asked for: a Gaussian prior on the rest, whose lens model is the one that counts.
+  /// Flat scenes will do then.
+  std::optional<KnownIntrinsics> known{};
 };
 
 /// ok: believe the estimate and its covariance. weak: an estimate exists, but the data do not support it as
@@ -46,8 +58,9 @@ struct SolveResult {
   bool clusters_suffice = false;
   std::size_t clusters = 0;
 
-  double fit_rms_px = 0;      ///< sqrt(mean(du² + dv²)) over all correspondences
-  double reduced_chi2 = 0;    ///< Σ ((du² + dv²)/σ²) / (2n - p)
+  int free_parameters = 0;  ///< that only the points can tell: all of them; 6 where the intrinsics are known
+  double fit_rms_px = 0;    ///< sqrt(mean(du² + dv²)) over all correspondences
+  double reduced_chi2 = 0;  ///< Σ ((du² + dv²)/σ²) / (2n - p)
   double residual_scale = 0;  ///< residuals over what the sigmas explain; with a robust loss by the median
   double outlier_share = 0;   ///< correspondences with (du² + dv²)/σ² > 13.8, where noise leaves 0.1 %
   double predicted_volume_rms_px = 0;              ///< from `covariance`, over the estimate's own volume grid
@@ -72,6 +85,11 @@ struct SolveResult {
 /// 15 %, Cauchy 50 %), an estimate that cannot map its own volume, or, for a pinhole, residuals that follow a
 /// lens (lens_left_out.h, once in 10⁵ by chance) which would move the volume by more than twice its predicted
 /// error. The verdict never looks at a truth.
+///
+/// With known intrinsics: starts by SQPNP (Terzakis and Lourakis, ECCV 2020) and, for coplanar points, both
+/// solutions of IPPE (Collins and Bartoli, IJCV 2014), from the inliers of P3P where a loss is robust; 4
+/// points suffice and may lie in a plane. Weak also: a second placement that the points cannot tell from the
+/// first (Σ ρ(s) within 20).
 ///
 /// The world points are believed. Where their cameras are uncertain, that is carried to first order into
 /// covariance, prediction and verdict, and residuals may be as large as it explains. Where they are wrong and

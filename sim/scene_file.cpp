@@ -18,6 +18,17 @@ namespace {
 
 constexpr std::size_t most_bytes = std::size_t(16) << 20;
 
+/// A short row of numbers as it is written; empty for another array.
+std::string row_text(const toml::array& array) {
+  if (array.size() > 4 ||
+      !std::all_of(array.begin(), array.end(), [](const toml::node& n) { return n.is_number(); }))
+    return "";
+  std::string text;
+  for (const toml::node& n : array)
+    text += fmt::format("{}{}", text.empty() ? "" : ", ", n.value<double>().value_or(0));
+  return "[" + text + "]";
+}
+
 /// What stands in the file, in words.
 std::string found_text(const toml::node& node) {
   if (const auto* text = node.as_string()) {
@@ -27,7 +38,10 @@ std::string found_text(const toml::node& node) {
   if (const auto* integer = node.as_integer()) return std::to_string(integer->get());
   if (const auto* number = node.as_floating_point()) return fmt::format("{}", number->get());
   if (const auto* boolean = node.as_boolean()) return boolean->get() ? "true" : "false";
-  if (const auto* array = node.as_array()) return fmt::format("an array of {}", array->size());
+  if (const auto* array = node.as_array()) {
+    const std::string row = row_text(*array);
+    return row.empty() ? fmt::format("an array of {}", array->size()) : row;
+  }
   return node.is_table() ? "a table" : "a date or time";
 }
 

@@ -41,6 +41,7 @@ Json device_json(const BoardCalibration& c, std::size_t d) {
                {"cy", k.cy},
                {"lens", {{"model", device.lens.model}, {"parameters", device.lens.parameters}}},
                {"sigma", sigma_json(c, device.name)},
+               {"known", bool(c.ladder.fit.model.devices[d].known)},
                {"sigma_px", c.ladder.fit.sigma_px[d]},
                {"fit_rms_px", c.ladder.fit.rms_px[d]},
                {"coverage", c.diagnosis.devices[d].coverage},
@@ -160,8 +161,10 @@ std::string poses_text(const BoardCalibration& c) {
 std::string sureness_text(const BoardCalibration& c) {
   std::string text = "standard deviation of predicted pixels (noise alone)\n";
   for (std::size_t d = 0; d < c.devices.size(); ++d) {
-    text += fmt::format("  {}: sightings in {:.0f} % of the image\n", c.devices[d].name,
-                        100 * c.diagnosis.devices[d].coverage);
+    const bool known = c.ladder.fit.model.devices[d].known;
+    text += fmt::format("  {}: sightings in {:.0f} % of the image{}\n", c.devices[d].name,
+                        100 * c.diagnosis.devices[d].coverage,
+                        known ? "; its known intrinsics are taken for exact" : "");
     for (const RangeSigma& r : c.diagnosis.devices[d].ranges)
       text += fmt::format("    range {:>9.4g}: centre {:.3f}, whole image {:.3f}, worst {:.3f} px\n", r.range,
                           r.center_px, r.rms_px, r.worst_px);
@@ -171,9 +174,10 @@ std::string sureness_text(const BoardCalibration& c) {
 
 std::string summary_text(const BoardCalibration& c) {
   const Diagnosis& d = c.diagnosis;
-  std::string text = fmt::format("fit {:.4f} px rms, held out {:.4f} px rms; {} iterations ({})\n",
-                                 c.fit_rms_px(), c.held_out().rms_px, c.ladder.fit.adjustment.iterations,
-                                 c.ladder.fit.adjustment.termination);
+  const std::string held_out = c.held_out().folds.empty() ? "-" : fmt::format("{:.4f}", c.held_out().rms_px);
+  std::string text =
+      fmt::format("fit {:.4f} px rms, held out {} px rms; {} iterations ({})\n", c.fit_rms_px(), held_out,
+                  c.ladder.fit.adjustment.iterations, c.ladder.fit.adjustment.termination);
   text +=
       fmt::format("predicted error over {}'s volume: {:.3f} px by noise alone, {} px by leaving poses out\n",
                   c.devices.back().name, d.predicted_volume_rms_px,

@@ -44,7 +44,8 @@ struct Collected {
 std::vector<FolderEstimate> calibrate_folder(const std::filesystem::path& folder,
                                              const CaptureManifest& manifest, const Scene& scene,
                                              const SolveOptions& solve_options,
-                                             const DecodeOptions& decode_options, const Progress& progress) {
+                                             const DecodeOptions& decode_options, const KnownByName& known,
+                                             const Progress& progress) {
   const ToldScene told(scene);
   std::map<int, ToldPoints> points;
   std::map<std::string, Collected> projectors;
@@ -67,6 +68,9 @@ std::vector<FolderEstimate> calibrate_folder(const std::filesystem::path& folder
     append_correspondences(map, points.at(camera), camera, TrialOptions{}.block_px,
                            collected.correspondences);
   }
+  for (const auto& [name, intrinsics] : known)
+    if (!name.empty() && !projectors.contains(name))
+      throw InputError(fmt::format("known intrinsics: the pictures show no projector \"{}\"", name));
   std::vector<FolderEstimate> estimates;
   for (const auto& [name, collected] : projectors) {
     FolderEstimate estimate{name, collected.correspondences.world_points.size(), {}, collected.flags};
@@ -74,6 +78,7 @@ std::vector<FolderEstimate> calibrate_folder(const std::filesystem::path& folder
       progress(fmt::format("solving for \"{}\" from {} correspondences", name, estimate.correspondences));
     SolveOptions options = solve_options;
     options.lens_model = lens_model(scene, name);
+    options.known = known_for(known, name);
     if (estimate.correspondences == 0) {
       estimate.solve.reason =
           "no overlap: no camera pixel sees light of this projector that could be decoded";

@@ -25,6 +25,7 @@ void judge(const Scene& scene, const Traced& traced, const Correspondences& corr
   }
   SolveOptions solve_options = options.solve;
   solve_options.lens_model = truth.lens.model;
+  if (options.known_intrinsics) solve_options.known = KnownIntrinsics{truth.intrinsics, truth.lens};
   solve_options.seed = options.seed;
   outcome.solve = outcome.times.measure(
       "solve", [&] { return solve(correspondences, truth.intrinsics.size, solve_options); });

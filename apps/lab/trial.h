@@ -17,6 +17,8 @@ struct TrialOptions {
   std::uint64_t seed = 1;
   SolveOptions solve;  ///< lens_model is replaced by each projector's own
   DecodeOptions decode;
+  bool known_intrinsics =
+      false;             ///< the solver is told the true intrinsics and lens, and finds the placement
   bool true_uv = false;  ///< takes the true (u, v) in double in place of capture and decoding
   int block_px = 32;     ///< side of the camera-image blocks whose errors may be correlated
 };

@@ -112,6 +112,7 @@ Json estimate_json(const std::string& name, const SolveResult& solve) {
           {"device_from_world", rows_of(d.device_from_world)},
           {"projector_from_world", json_of(projector_from_world(d.device_from_world))},
           {"texture_from_world", json_of(texture_from_world(d))},
+          {"free_parameters", solve.free_parameters},
           {"sigma", sigma_json(solve)},
           {"parameters", solve.parameter_names},
           {"covariance", solve.covariance},

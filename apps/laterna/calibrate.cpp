@@ -51,8 +51,9 @@ int run(const Words& words, const Common& common) {
   const Scene scene = believed_scene(words, manifest);
   SolveOptions options = words.solve;
   options.seed = common.seed;
-  const auto estimates = calibrate_folder(folder, manifest, scene, options, {},
-                                          [&](const std::string& line) { progress(common, line); });
+  const auto estimates =
+      calibrate_folder(folder, manifest, scene, options, {}, read_known_intrinsics(words.boards.known),
+                       [&](const std::string& line) { progress(common, line); });
   std::vector<nlohmann::json> entries;
   int code = exit_ok;
   for (const FolderEstimate& e : estimates) {
@@ -128,6 +129,12 @@ void add_calibrate(CLI::App& app, Common& common) {
                       "Scene with the believed meshes and cameras (default: the folder's own)");
   command->add_option("--projector-size", words->size,
                       "WIDTHxHEIGHT, for a folder without a manifest and for a FILE.csv");
+  command
+      ->add_option(
+          "--known", words->boards.known,
+          "FILE or NAME=FILE with known intrinsics (.cameramodel, or an estimate with its sigmas): only the "
+          "placement is solved for, and a flat scene will do")
+      ->take_all();
   add_pattern_words(*command, words->patterns);
   command->add_option("-o,--output", words->out, "File for the estimate (JSON; default: none written)");
   add_solve_words(*command, words->solve);

@@ -2,6 +2,7 @@
 
 #include "apps/lab/board_pictures.h"
 #include "apps/lab/board_report.h"
+#include "apps/lab/known_intrinsics.h"
 #include "calib/boards/correspondence_csv.h"
 #include "sim/error.h"
 #include "sim/safe_write.h"
@@ -46,6 +47,13 @@ BoardOptions options_of(const BoardWords& words, const BoardOutput& output, std:
   options.ladder.fixed_center = words.fixed_center;
   if (output.tolerance_px) options.tolerance_px = *output.tolerance_px;
   return options;
+}
+
+void add_known_words(BoardCapture& capture, const BoardWords& words) {
+  if (!words.known.empty() && words.compare)
+    throw InputError(
+        "--compare with --known: the other methods solve for all intrinsics, expected one of the two");
+  add_known(capture, read_known_intrinsics(words.known));
 }
 
 int finish(const BoardCalibration& calibration, const BoardFolders& folders, const BoardWords& words,
@@ -122,16 +130,17 @@ int calibrate_csv(const std::string& file, const std::string& projector_size, co
   BoardFolders table;
   table.capture = read_correspondence_csv(file, size_of(words.camera_size, "--camera-size"),
                                           size_of(projector_size, "--projector-size"));
+  add_known_words(table.capture, words);
   return finish(calibrate_boards(table.capture, options_of(words, output, 2)), table, words, output, common);
 }
 
 int calibrate_board_folders(const std::vector<std::string>& folders,
                             const std::optional<PatternSequence>& patterns, const BoardWords& words,
                             const BoardOutput& output, const Common& common) {
-  const BoardFolders found =
-      read_board_folders({folders.begin(), folders.end()}, folder_options(words, patterns),
-                         [&](const std::string& line) { progress(common, line); });
+  BoardFolders found = read_board_folders({folders.begin(), folders.end()}, folder_options(words, patterns),
+                                          [&](const std::string& line) { progress(common, line); });
   if (!words.correspondences.empty()) write_file(words.correspondences, correspondence_csv(found.capture));
+  add_known_words(found.capture, words);
   BoardOptions options = options_of(words, output, found.capture.devices.size());
   if (words.boards.size() > 1) options.ladder.bend = LadderOptions::Bend::off;
   BoardCalibration calibration = calibrate_boards(found.capture, options);

@@ -17,7 +17,7 @@ namespace laterna {
 struct BoardWords {
   std::string camera_size, lens = "auto", bend = "auto";
   bool one_focal_length = false, fixed_center = false, compare = false;
-  std::vector<std::string> boards;
+  std::vector<std::string> boards, known;
   std::string camera, local = "quadratic", correspondences, pictures;
 };
 

@@ -36,6 +36,7 @@ void add_check(CLI::App& app, Common& common);
 void add_info(CLI::App& app, Common& common);
 void add_project(CLI::App& app, Common& common);
 void add_preview(CLI::App& app, Common& common);
+void add_live(CLI::App& app, Common& common);
 void add_patterns(CLI::App& app, Common& common);
 void add_capture(CLI::App& app, Common& common);
 void add_render(CLI::App& app, Common& common);

@@ -60,6 +60,9 @@ void add_roundtrip(CLI::App& app, Common& common) {
   command->add_option("-o,--output", words->out, "New folder for the results (default: SCENE-roundtrip)");
   command->add_flag("--true-uv", words->options.true_uv,
                     "Takes the true projector pixels in place of capture and decoding");
+  command->add_flag(
+      "--known-intrinsics", words->options.known_intrinsics,
+      "Tells the solver the true intrinsics: only the placement is recovered, from flat scenes too");
   add_solve_words(*command, words->options.solve);
   command->callback([words, &common] { common.exit_code = run(*words, common); });
 }

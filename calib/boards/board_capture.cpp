@@ -16,6 +16,12 @@ bool finite(const glm::dvec3& x) { return std::isfinite(x.x) && std::isfinite(x.
 
 void validate(const Sighting& s, const BoardDevice& device, int label) {
   const auto place = [&] { return fmt::format("pose {}, corner {}, {}", label, s.corner, device.name); };
+  if (s.read_at) {
+    const glm::dmat2& slope = s.read_at->slope;
+    if (!finite({s.read_at->pixel, 0}) || !finite({slope[0], slope[1].x}) || !std::isfinite(slope[1].y))
+      throw InputError(
+          fmt::format("{}: the camera's pixel or the slope of a reading is not finite", place()));
+  }
   if (!finite(s.x_board) || !finite({s.pixel, 0})) {
     throw InputError(fmt::format("{}: board point ({}, {}, {}) and pixel ({}, {}), expected finite numbers",
                                  place(), s.x_board.x, s.x_board.y, s.x_board.z, s.pixel.x, s.pixel.y));
@@ -33,11 +39,19 @@ void validate(const Sighting& s, const BoardDevice& device, int label) {
 
 void validate(const BoardCapture& capture) {
   if (capture.devices.empty()) throw InputError("board capture: no device, expected at least a camera");
-  for (const BoardDevice& device : capture.devices)
+  for (const BoardDevice& device : capture.devices) {
     validate(Intrinsics{device.size, 1, 1, 0, 0}, device.name.c_str());
+    if (!device.known) continue;
+    laterna::validate(*device.known);
+    const glm::ivec2 found = device.known->intrinsics.size;
+    if (found != device.size)
+      throw InputError(fmt::format("{}: the known intrinsics are of {}x{} px, expected {}x{}", device.name,
+                                   found.x, found.y, device.size.x, device.size.y));
+  }
   for (const Sighting& s : capture.sightings) {
     const bool in_range = s.device >= 0 && s.device < int(capture.devices.size()) && s.pose >= 0 &&
-                          s.pose < capture.pose_count();
+                          s.pose < capture.pose_count() &&
+                          (!s.read_at || (s.read_at->device >= 0 && s.read_at->device < s.device));
     if (!in_range) {
       throw InputError(
           fmt::format("board capture: a sighting has device {} and pose {}, expected less than {} and {}",

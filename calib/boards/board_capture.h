@@ -1,8 +1,11 @@
 // What a rig of devices saw of a board that was held in several poses.
 #pragma once
 
+#include "sim/device.h"
+
 #include <glm/glm.hpp>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,7 +14,17 @@ namespace laterna {
 /// A camera or a projector of the rig, as far as it is known before calibrating.
 struct BoardDevice {
   std::string name;
-  glm::ivec2 size{0, 0};  ///< W, H in pixels
+  glm::ivec2 size{0, 0};          ///< W, H in pixels
+  std::optional<Device> known{};  ///< intrinsics and lens that are held; its placement is passed over
+};
+
+/// The camera's sighting at which a projector's pixel was read. Its error e moves that pixel by slope·e,
+/// slope being the derivative of the projector's pixel by the camera's on the board; predict() (rig_rows.h)
+/// takes that back, so that the two are independent.
+struct ReadAt {
+  int device = 0;
+  glm::dvec2 pixel{0.0};
+  glm::dmat2 slope{0.0};
 };
 
 /// A point of the board and the pixel at which a device sees it or, for a projector, lights it. Integer
@@ -21,7 +34,8 @@ struct Sighting {
   int corner = 0;            ///< the file's own number, for messages only
   glm::dvec3 x_board{0.0};   ///< in the capture's unit of length
   glm::dvec2 pixel{0.0};
-  double sigma_px = 1;  ///< per coordinate
+  double sigma_px = 1;              ///< per coordinate; of the reading alone where it is `read_at`
+  std::optional<ReadAt> read_at{};  ///< none: pixels of different devices are independent
 };
 
 /// The board's extent in x and y, over which it may bend: (x - center)/half_size is in [-1, 1].
@@ -41,7 +55,8 @@ struct BoardCapture {
 };
 
 /// Throws InputError where a size is unusable, an index is out of range, a number is not finite, a sigma is
-/// not positive, or a pixel lies outside its device's image by more than a tenth of the size.
+/// not positive, known intrinsics are unsound or of another size, or a pixel lies outside its device's image
+/// by more than a tenth of the size.
 void validate(const BoardCapture& capture);
 
 /// The extent of all board points in x and y.

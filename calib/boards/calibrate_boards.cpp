@@ -1,5 +1,6 @@
 #include "calib/boards/calibrate_boards.h"
 
+#include "calib/boards/known_devices.h"
 #include "calib/boards/rig_start.h"
 #include "sim/error.h"
 
@@ -18,7 +19,8 @@ constexpr const char* more_poses =
 
 RigModel generous_model(const BoardCapture& capture) {
   RigModel model;
-  model.devices.assign(capture.devices.size(), model_of_terms(lens_terms("k1k2p1p2")));
+  for (const BoardDevice& device : capture.devices)
+    model.devices.push_back(device_model(device, lens_terms("k1k2p1p2")));
   model.bend = true;
   return model;
 }
@@ -78,10 +80,11 @@ double focal_sigma_share(const BoardCalibration& result) {
 void add_capture_weaknesses(const BoardCalibration& r, const BoardCapture& capture,
                             std::vector<std::string>& weak) {
   const int poses = r.ladder.fit.capture.pose_count();
-  if (poses < 3)
+  const bool placements_alone = all_known(capture);
+  if (poses < 3 && !placements_alone)
     weak.push_back(
         fmt::format("only {} poses: none can be held out to test the result; {}", poses, more_poses));
-  if (r.diagnosis.tilt_spread_deg < 10)
+  if (r.diagnosis.tilt_spread_deg < 10 && !placements_alone)
     weak.push_back(
         fmt::format("the boards are nearly parallel (their normals within {:.1f}°): focal length and "
                     "distance trade off; add poses tilted by 20° to 40° about both axes",
@@ -210,9 +213,9 @@ BoardCalibration calibrate_boards(const BoardCapture& capture, const BoardOption
   validate(capture);
   BoardCalibration result;
   const BoardCapture usable = usable_poses(capture, result.unused_poses);
-  if (usable.pose_count() == 1 && is_flat(usable)) {
+  if (usable.pose_count() == 1 && is_flat(usable) && !all_known(usable)) {
     return refuse(result, fmt::format("one pose of a flat board: focal length and distance cannot be told "
-                                      "apart; {}",
+                                      "apart; {}, or give the known intrinsics of every device",
                                       more_poses));
   }
   const RigStart start = start_rig(usable);
@@ -232,6 +235,7 @@ BoardCalibration calibrate_boards(const BoardCapture& capture, const BoardOption
   add_forecast_weaknesses(result, options, weak);
   add_residual_weakness(result, options, weak);
   add_bend_weakness(result, options, weak);
+  if (const std::string twin = second_placement(result.ladder.fit); !twin.empty()) weak.push_back(twin);
   result.status = weak.empty() ? Status::ok : Status::weak;
   result.reason = fmt::format("{}", fmt::join(weak, "; "));
   return result;

@@ -40,6 +40,9 @@ struct BoardCalibration {
   const HeldOut& held_out() const;  ///< of the winning rung; without folds where there is none
 };
 
+/// Devices whose intrinsics are known are only placed; where all are, one pose of a flat board will do, and a
+/// second placement that the sightings cannot tell from the first (solve.h) is weak.
+///
 /// The joint maximum-likelihood adjustment of everything (adjust.h) from starts of its own (rig_start.h),
 /// after dropping gross outliers under a model with k1, k2, p1, p2 and bend, with the lens model named or the
 /// one that the ladder picks.

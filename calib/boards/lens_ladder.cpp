@@ -1,5 +1,6 @@
 #include "calib/boards/lens_ladder.h"
 
+#include "calib/boards/known_devices.h"
 #include "sim/error.h"
 #include "sim/parallel.h"
 
@@ -51,9 +52,12 @@ std::vector<Candidate> candidates_after(const Candidate& current, const BoardCap
   const Terms& terms = current.terms;
   std::vector<Candidate> candidates;
   const bool none = std::all_of(terms.begin(), terms.end(), [](const auto& t) { return t.empty(); });
-  if (none && terms.size() > 1)
+  const bool none_known = std::none_of(capture.devices.begin(), capture.devices.end(),
+                                       [](const BoardDevice& device) { return device.known.has_value(); });
+  if (none && none_known && terms.size() > 1)
     candidates.push_back({Terms(terms.size(), {"k1"}), current.bend, "k1 of every device"});
   for (std::size_t d = 0; d < terms.size(); ++d) {
+    if (capture.devices[d].known) continue;
     for (const std::string& term : next_terms(terms[d])) {
       Candidate c{terms, current.bend, capture.devices[d].name + " " + term};
       c.terms[d] = with_term(terms[d], term);
@@ -65,10 +69,11 @@ std::vector<Candidate> candidates_after(const Candidate& current, const BoardCap
   return candidates;
 }
 
-RigModel model_of(const Terms& terms, bool bend, const LadderOptions& options) {
+RigModel model_of(const Terms& terms, bool bend, const LadderOptions& options, const BoardCapture& capture) {
   RigModel model;
-  for (const auto& t : terms) {
-    model.devices.push_back(model_of_terms(t));
+  for (std::size_t d = 0; d < terms.size(); ++d) {
+    model.devices.push_back(device_model(capture.devices[d], terms[d]));
+    if (capture.devices[d].known) continue;
     model.devices.back().one_focal_length = options.one_focal_length;
     model.devices.back().fixed_center = options.fixed_center;
   }
@@ -113,7 +118,7 @@ std::string what_moved(const BoardRig& before, const BoardRig& after, const Boar
 void evaluate(Candidate& c, const BoardCapture& capture, const BoardRig& start, bool estimate_sigma,
               const LadderOptions& options) {
   c.rung.terms = c.terms, c.rung.bend = c.bend, c.rung.added = c.added;
-  c.fit = fit_rig(capture, model_of(c.terms, c.bend, options), start, estimate_sigma);
+  c.fit = fit_rig(capture, model_of(c.terms, c.bend, options, capture), start, estimate_sigma);
   if (!c.fit) return;
   c.rung.fit_rms_px = c.fit->rms_px;
   c.rung.held_out = hold_out_poses(c.fit->capture, c.fit->model, c.fit->adjustment.rig);

@@ -86,6 +86,7 @@ ProjectorPixel read_quadratic(const Disc& disc) {
     squares += left.row(k).squaredNorm() / std::pow(disc.weight[std::size_t(k)], 2);
   const Eigen::MatrixXd inverse = (design.transpose() * design).ldlt().solve(Eigen::MatrixXd::Identity(6, 6));
   return {.pixel = {coefficients(0, 0), coefficients(0, 1)},
+          .slope = {{coefficients(1, 0), coefficients(1, 1)}, {coefficients(2, 0), coefficients(2, 1)}},
           .sigma_px = std::sqrt(inverse(0, 0) * chi2 / double(2 * n - 12)),
           .residual_px = std::sqrt(squares / double(n))};
 }
@@ -98,7 +99,10 @@ ProjectorPixel read_homography(const Disc& disc) {
   double squares = 0;
   for (const double r : residuals_of(m, disc)) squares += r * r;
   const double n = double(disc.size());
-  return {.pixel = {m(0, 2) / m(2, 2), m(1, 2) / m(2, 2)},
+  const glm::dvec2 pixel(m(0, 2) / m(2, 2), m(1, 2) / m(2, 2));
+  const auto slope = [&](int j) { return (glm::dvec2(m(0, j), m(1, j)) - pixel * m(2, j)) / m(2, 2); };
+  return {.pixel = pixel,
+          .slope = {slope(0), slope(1)},
           .sigma_px = std::sqrt(squares / (2 * n - 8) / n),
           .residual_px = std::sqrt(squares / n)};
 }
@@ -113,6 +117,7 @@ std::optional<ProjectorPixel> projector_pixel_at(const DecodedMap& map, const gl
   const Disc disc = agreeing(all);
   if (int(disc.size()) < least || !is_around(disc)) return {};
   ProjectorPixel read = options.map == LocalMap::quadratic ? read_quadratic(disc) : read_homography(disc);
+  read.slope /= options.radius_px;  // the disc's coordinates are over its radius
   read.used = int(disc.size()), read.valid = int(all.size());
   const bool finite =
       std::isfinite(read.pixel.x) && std::isfinite(read.pixel.y) && std::isfinite(read.sigma_px);

@@ -23,6 +23,7 @@ struct LocalFitOptions {
 
 struct ProjectorPixel {
   glm::dvec2 pixel{0.0};
+  glm::dmat2 slope{0.0};    ///< column j: derivative of the pixel by camera x, y
   double sigma_px = 0;      ///< of each coordinate, from the fit's residuals
   double residual_px = 0;   ///< sqrt(mean(du² + dv²)) of the pixels used
   int used = 0, valid = 0;  ///< pixels of the disc that agree, and that are decoded

@@ -96,14 +96,14 @@ RigColumns columns_of(const RigModel& model) {
     const DeviceModel& m = model.devices[d];
     RigColumns::Of of;
     of.intrinsics.assign(4 + m.lens_free.size(), -1);
-    if (!m.held) {
+    if (!m.held && !m.known) {
       of.intrinsics[0] = columns.count++;
       of.intrinsics[1] = m.one_focal_length ? of.intrinsics[0] : columns.count++;
       for (int i = 2; i < 4 && !m.fixed_center; ++i) of.intrinsics[i] = columns.count++;
       for (std::size_t i = 0; i < m.lens_free.size(); ++i)
         if (m.lens_free[i]) of.intrinsics[4 + i] = columns.count++;
-      if (d > 0) of.pose = columns.count, columns.count += 6;
     }
+    if (d > 0 && !m.held) of.pose = columns.count, columns.count += 6;
     columns.devices.push_back(std::move(of));
   }
   if (model.bend) columns.bend = columns.count, columns.count += 2;

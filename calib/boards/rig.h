@@ -19,6 +19,7 @@ struct DeviceModel {
   std::vector<bool> lens_free;    ///< one per lens parameter
   bool one_focal_length = false;  ///< fx = fy
   bool fixed_center = false;      ///< cx, cy stay at the middle of the image
+  bool known = false;             ///< intrinsics and lens stay at their start, the place is free
   bool held = false;              ///< nothing is free, neither intrinsics nor place
 };
 
@@ -89,8 +90,8 @@ BoardRig moved(const BoardRig& rig, const RigColumns& columns, const std::vector
 /// The inverse: the step that takes `from` to `to`.
 std::vector<double> global_step(const BoardRig& from, const BoardRig& to, const RigColumns& columns);
 
-/// Fits a rig's intrinsics to a model: lens parameters added as 0 or cut, held ones kept, fx and fy made one,
-/// the centre put into the middle of the image.
+/// Fits a rig's intrinsics to a model: lens parameters added as 0 or cut, held and known ones kept, fx and fy
+/// made one, the centre put into the middle of the image.
 BoardRig fitted_to(BoardRig rig, const RigModel& model, const BoardCapture& capture);
 
 /// Device d of the rig as the rest of Laterna knows it; device_from_world is device_from_camera, lengths in

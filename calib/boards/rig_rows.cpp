@@ -48,7 +48,10 @@ void add_pose_row(double* row, const glm::dvec3& rotated, const glm::dvec3& g) {
   for (int i = 0; i < 3; ++i) row[i] += turn[i], row[3 + i] += g[i];
 }
 
-bool predict(const RigProblem& problem, const BoardRig& rig, const Sighting& s, double pixel[2],
+namespace {
+
+// Where the rig alone puts a sighting.
+bool project(const RigProblem& problem, const BoardRig& rig, const Sighting& s, double pixel[2],
              double* rows) {
   const RigDevice& device = rig.devices[s.device];
   const RigColumns::Of& of = problem.columns.devices[s.device];
@@ -78,6 +81,29 @@ bool predict(const RigProblem& problem, const BoardRig& rig, const Sighting& s, 
     if (of.pose >= 0) add_pose_row(row + global + of.pose, turned, g);
     for (int i = 0; i < 2 && problem.columns.bend >= 0; ++i)
       row[global + problem.columns.bend + i] = shape[i] * glm::dot(g_camera, board.rotation[2]);
+  }
+  return true;
+}
+
+}  // namespace
+
+bool predict(const RigProblem& problem, const BoardRig& rig, const Sighting& s, double pixel[2],
+             double* rows) {
+  if (!project(problem, rig, s, pixel, rows)) return false;
+  if (!s.read_at) return true;
+  const std::size_t count = std::size_t(problem.row_columns() - 1);
+  thread_local std::vector<double> seen_rows;
+  seen_rows.resize(2 * count);
+  Sighting seen = s;
+  seen.device = s.read_at->device;
+  double at[2];
+  if (!project(problem, rig, seen, at, rows ? seen_rows.data() : nullptr)) return false;
+  const glm::dmat2& slope = s.read_at->slope;
+  const glm::dvec2 moved = slope * (glm::dvec2(at[0], at[1]) - s.read_at->pixel);
+  for (int r = 0; r < 2; ++r) {
+    pixel[r] -= moved[r];
+    for (std::size_t j = 0; rows && j < count; ++j)
+      rows[r * count + j] -= slope[0][r] * seen_rows[j] + slope[1][r] * seen_rows[count + j];
   }
   return true;
 }

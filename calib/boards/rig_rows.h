@@ -37,8 +37,10 @@ struct RigProblem {
 /// derivative that a gradient g by x_target makes: dx = w × R·x + dt. `rotated` is R·x.
 void add_pose_row(double* row, const glm::dvec3& rotated, const glm::dvec3& g);
 
-/// The pixel of one sighting under a rig and, unless null, its two rows of derivatives by the pose's columns
-/// and the global ones (row-major 2×(row_columns() - 1)). False where the point lies behind the device.
+/// The pixel of one sighting under a rig (where it was `read_at` a camera's sighting, less slope·(the
+/// camera's pixel under the rig - the one seen)) and, unless null, its two rows of derivatives by the pose's
+/// columns and the global ones (row-major 2×(row_columns() - 1)). False where the point lies behind the
+/// device.
 bool predict(const RigProblem& problem, const BoardRig& rig, const Sighting& sighting, double pixel[2],
              double* rows);
 

@@ -1,7 +1,8 @@
 #include "calib/boards/rig_start.h"
 
 #include "calib/boards/adjust.h"
-#include "calib/candidates.h"
+#include "calib/boards/known_devices.h"
+#include "calib/placement.h"
 
 #include <fmt/format.h>
 
@@ -87,7 +88,22 @@ std::optional<Adjustment> camera_from_focal(const BoardCapture& capture, double 
   return adjust({camera, camera_alone(capture), {RobustLoss::Kind::cauchy, 3}}, rig, 100);
 }
 
+// A known camera: each board where the camera sees it, through its lens.
+std::optional<BoardRig> start_known_camera(const BoardCapture& capture) {
+  const BoardCapture straight = straightened(capture);
+  BoardRig rig;
+  rig.devices.resize(capture.devices.size());
+  rig.devices[0].parameters = state_of(*capture.devices[0].known).parameters;
+  for (int k = 0; k < capture.pose_count(); ++k) {
+    const auto pose = board_pose(straight, k, rig.devices[0].parameters);
+    if (!pose) return std::nullopt;
+    rig.camera_from_board.push_back(*pose);
+  }
+  return rig;
+}
+
 std::optional<BoardRig> start_camera(const BoardCapture& capture) {
+  if (capture.devices[0].known) return start_known_camera(capture);
   std::optional<Adjustment> best;
   const auto consider = [&](double f) {
     auto tried = camera_from_focal(capture, f);
@@ -104,7 +120,15 @@ std::optional<BoardRig> start_camera(const BoardCapture& capture) {
   return best->rig;
 }
 
-// A pinhole device from board points in the camera's frame; the reason where there is none.
+// A known device from points in the camera's frame; the reason where there is none.
+std::string start_known_device(const Device& known, const Correspondences& c, RigDevice& device) {
+  const BestRefinement best = place(c, {known.intrinsics, known.lens});
+  if (!best.refinement) return best.refusal;
+  device = {state_of(known).parameters, best.refinement->state.device_from_points};
+  return "";
+}
+
+// A device from board points in the camera's frame; the reason where there is none.
 std::string start_device(const BoardCapture& capture, int d, BoardRig& rig) {
   Correspondences c;
   for (const Sighting& s : capture.sightings) {
@@ -114,6 +138,10 @@ std::string start_device(const BoardCapture& capture, int d, BoardRig& rig) {
     c.sigma_px.push_back(start_sigma_px);
   }
   const std::string& name = capture.devices[d].name;
+  if (const auto& known = capture.devices[d].known) {
+    const std::string refusal = start_known_device(*known, c, rig.devices[d]);
+    return refusal.empty() ? "" : fmt::format("{}: {}", name, refusal);
+  }
   const LensGradient pinhole("LENSMODEL_PINHOLE");
   const GeometryReport geometry = check_geometry(c, pinhole.parameter_count() + 6);
   if (geometry.verdict != Geometry::sound) return fmt::format("{}: {}", name, geometry.reason);

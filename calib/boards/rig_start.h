@@ -9,7 +9,7 @@
 namespace laterna {
 
 struct RigStart {
-  std::optional<BoardRig> rig;  ///< pinhole devices
+  std::optional<BoardRig> rig;  ///< pinhole devices, but for known ones
   std::string refusal;          ///< one sentence; empty where there is a rig
 };
 
@@ -18,6 +18,8 @@ struct RigStart {
 /// IPPE (Collins and Bartoli 2014), or SQPNP for a board with relief; then an adjustment of the camera alone.
 /// Every other device: the board points, now in the camera's frame, give it by the known-geometry starts
 /// (candidates.h): DLT, RANSAC, nominal focal lengths. A principal point outside the image is fine.
+///
+/// A device whose intrinsics are known keeps them and its lens, and starts from its placement (solve.h).
 ///
 /// Refused: no pose, a pose that the camera sees fewer than 4 corners of, another device with too few points
 /// or with all its points in one plane.

@@ -41,7 +41,7 @@ BoardReading add_projector_sightings(const std::vector<FoundPoint>& found, const
     if (!read[k]) continue;
     residuals.push_back(read[k]->residual_px);
     sightings.push_back({device, pose, found[k].index, points[std::size_t(found[k].index)], read[k]->pixel,
-                         std::max(read[k]->sigma_px, 1e-4)});
+                         std::max(read[k]->sigma_px, 1e-4), ReadAt{0, found[k].pixel, read[k]->slope}});
   }
   return {residuals.size(), median(residuals)};
 }

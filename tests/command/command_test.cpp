@@ -79,6 +79,20 @@ TEST(Command, InfoKeepsItsContract) {
   EXPECT_EQ(parsed["projectors"][0]["clip_from_projector"][3][2], -1.0);
 }
 
+TEST(Command, LiveWritesOnePageOrItsData) {
+  const ScratchFolder scratch;
+  write_text(scratch / "s.toml", small);
+  const auto data = laterna("live s.toml --json", scratch.path());
+  EXPECT_EQ(data.exit_code, 0) << data.err;
+  EXPECT_EQ(nlohmann::json::parse(data.out)["name"], "s");
+  EXPECT_EQ(listing(scratch.path()), "s.toml ");
+  const auto page = laterna("live s.toml -o page.html", scratch.path());
+  EXPECT_EQ(page.exit_code, 0) << page.err;
+  EXPECT_THAT(page.out, HasSubstr("open page.html"));
+  EXPECT_TRUE(std::filesystem::exists(scratch / "page.html"));
+  EXPECT_EQ(laterna("live missing.toml", scratch.path()).exit_code, 2);
+}
+
 TEST(Command, ProjectPrintsPixelAndDepth) {
   const ScratchFolder scratch;
   write_text(scratch / "s.toml",
@@ -324,8 +338,8 @@ TEST(Command, BadTablesAndWordsAreOneSentence) {
 
 TEST(Command, HelpBeginsWithAWorkingExample) {
   const ScratchFolder scratch;
-  for (const char* name : {"new", "check", "info", "project", "preview", "patterns", "capture", "decode",
-                           "calibrate", "verify", "roundtrip"}) {
+  for (const char* name : {"new", "check", "info", "project", "preview", "live", "patterns", "capture",
+                           "decode", "calibrate", "verify", "roundtrip"}) {
     const auto help = laterna(std::string(name) + " --help", scratch.path());
     EXPECT_EQ(help.exit_code, 0);
     EXPECT_EQ(help.out.find("Example: "), 0u) << help.out;
@@ -342,7 +356,7 @@ TEST(Command, AFullDiskLeavesNothing) {
   // No file may grow beyond 16 KiB, and the signal that says so is ignored: writes fail as on a full disk.
   const std::string full = "trap '' XFSZ; ulimit -f 32; ";
   for (const char* words :
-       {"capture s.toml -o cap --format tif", "roundtrip s.toml -o out", "preview s.toml"}) {
+       {"capture s.toml -o cap --format tif", "roundtrip s.toml -o out", "preview s.toml", "live s.toml"}) {
     const auto run = laterna(words, scratch.path(), "", full);
     EXPECT_EQ(run.exit_code, 2) << words;
     EXPECT_THAT(run.err, HasSubstr("File too large")) << words;

@@ -181,7 +181,7 @@ TEST(SceneFile, WrongTypesNameWhatWasFoundAndExpected) {
   EXPECT_EQ(error_of(with_mesh("up = \"x\"\n")),
             "scene.toml:3: up in [[mesh]] is the string \"x\", expected one of \"y\", \"z\"");
   EXPECT_EQ(error_of(with_mesh("translate = [1, 2]\n")),
-            "scene.toml:3: translate in [[mesh]] is an array of 2, expected 3 numbers (-1e+09 to 1e+09)");
+            "scene.toml:3: translate in [[mesh]] is [1, 2], expected 3 numbers (-1e+09 to 1e+09)");
   EXPECT_EQ(error_of(with_mesh("world_from_object = [[1,0,0,0],[0,1,0,0],[0,0,1]]\n")),
             "scene.toml:3: world_from_object in [[mesh]] is an array of 3, expected 3 rows of 4 numbers "
             "(-1e+09 to 1e+09)");
@@ -202,7 +202,7 @@ TEST(SceneFile, NumbersOutOfRangeOrNotFinite) {
             "scene.toml:3: albedo in [[mesh]] is 1.5, expected a number (0 to 1)");
   for (const char* number : {"nan", "inf", "-inf", "+nan", "1e300"}) {
     EXPECT_THAT(error_of(with_mesh(std::string("translate = [0, 0, ") + number + "]\n")),
-                StartsWith("scene.toml:3: translate in [[mesh]] is an array of 3, expected 3 numbers"));
+                StartsWith("scene.toml:3: translate in [[mesh]] is [0, 0, "));
     EXPECT_THAT(error_of(with_mesh(std::string("scale = ") + number + "\n")),
                 StartsWith("scene.toml:3: scale in [[mesh]] is "));
   }
@@ -211,9 +211,8 @@ TEST(SceneFile, NumbersOutOfRangeOrNotFinite) {
   for (const char* number : {"99999999999999999999", "1e999", "4294967297"})
     EXPECT_THAT(error_of(with_mesh(std::string("detail = ") + number + "\n")), StartsWith("scene.toml:3: "));
   for (const char* number : {"0", "-5", "16385", "1000000000000"}) {
-    EXPECT_THAT(
-        error_of(with_device(replaced(device_lines, "640", number))),
-        AllOf(StartsWith("scene.toml:4: size in [[camera]] is an array of 2"), HasSubstr("1 to 16384")));
+    EXPECT_THAT(error_of(with_device(replaced(device_lines, "640", number))),
+                AllOf(StartsWith("scene.toml:4: size in [[camera]] is ["), HasSubstr("1 to 16384")));
   }
 }
 
