@@ -43,6 +43,20 @@ void copy_picture(std::string& file, const std::string& name, const fs::path& fo
   file = put(target, "maps", name + from.extension().string(), read_text(from, most_bytes));
 }
 
+/// Calls visit(name) for every file name that a scene may hold.
+template <class Visit>
+void for_each_file(SceneSpec& spec, const Visit& visit) {
+  for (MeshSpec& mesh : spec.meshes)
+    for (std::string* file : {&mesh.file, &mesh.believed.file, &mesh.albedo_map, &mesh.effects.normal_map,
+                              &mesh.effects.displacement_map})
+      visit(*file);
+  for (ProjectorSpec& projector : spec.projectors)
+    visit(projector.device.cameramodel), visit(projector.effects.vignetting.map);
+  for (CameraSpec& camera : spec.cameras) visit(camera.device.cameramodel), visit(camera.vignetting.map);
+  visit(spec.patterns.file);
+  for (std::string& file : spec.patterns.files) visit(file);
+}
+
 }  // namespace
 
 SceneSpec write_self_contained(const SceneSpec& spec, const Scene& scene, const fs::path& folder,
@@ -74,6 +88,16 @@ SceneSpec write_self_contained(const SceneSpec& spec, const Scene& scene, const 
     copy_picture(copy.patterns.files[i], fmt::format("picture{}", i + 1), folder, target);
   write_file(target / "scene.toml", scene_toml(copy));
   return copy;
+}
+
+SceneSpec seen_from(SceneSpec spec, const fs::path& folder, const fs::path& target) {
+  const fs::path from = fs::weakly_canonical(fs::absolute(folder)),
+                 to = fs::weakly_canonical(fs::absolute(target));
+  for_each_file(spec, [&](std::string& file) {
+    if (!file.empty() && fs::path(file).is_relative())
+      file = fs::weakly_canonical(from / file).lexically_proximate(to).generic_string();
+  });
+  return spec;
 }
 
 }  // namespace laterna

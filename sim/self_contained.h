@@ -1,4 +1,4 @@
-// A copy of a scene that needs no other file.
+// Copies of a scene that stand elsewhere: one that needs no other file, one that finds the files again.
 #pragma once
 
 #include "sim/scene.h"
@@ -14,5 +14,9 @@ namespace laterna {
 /// folder). Gives back what scene.toml says. Throws InputError where a file cannot be read or written.
 SceneSpec write_self_contained(const SceneSpec& spec, const Scene& scene, const std::filesystem::path& folder,
                                const std::filesystem::path& target);
+
+/// The specification with relative file names, which are looked for in `folder`, turned so that they are
+/// found from the folder `target`. Absolute names stay.
+SceneSpec seen_from(SceneSpec spec, const std::filesystem::path& folder, const std::filesystem::path& target);
 
 }  // namespace laterna

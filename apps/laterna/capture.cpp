@@ -1,4 +1,5 @@
 #include "apps/laterna/command.h"
+#include "apps/laterna/scene_words.h"
 
 #include "apps/lab/capture_writer.h"
 #include "apps/lab/explain.h"
@@ -24,7 +25,8 @@ void print_effects(const std::vector<EffectCost>& costs, bool json) {
 
 void add_capture(CLI::App& app, Common& common) {
   struct Words {
-    std::string scene, out;
+    SceneWords scene;
+    std::string out;
     CaptureOptions options;
     bool explain = false;
     int board_places = 0;
@@ -34,7 +36,7 @@ void add_capture(CLI::App& app, Common& common) {
                                   "Plays each projector's patterns and writes every camera's pictures, the "
                                   "scene, the matrices and the truth per\n"
                                   "pixel into a new folder with a manifest (sim/capture_folder.h).");
-  command->add_option("SCENE", words->scene, "Scene file (TOML)")->required();
+  add_scene_words(*command, words->scene);
   command->add_option("-o,--output", words->out, "New folder (none is needed with --explain)");
   command
       ->add_option(
@@ -53,10 +55,10 @@ void add_capture(CLI::App& app, Common& common) {
       ->check(CLI::Range(1, 1000));
   command->callback([words, &common] {
     if (words->out.empty() && !words->explain) throw CLI::RequiredError("--output");
-    const SceneSpec spec = with_names(read_scene_spec(words->scene));
-    const Scene scene = load_scene(words->scene);
+    const SceneSpec spec = with_names(read_scene_spec(words->scene.file, words->scene.set));
+    const Scene scene = load_scene(words->scene.file, words->scene.set);
     words->options.seed = common.seed;
-    const std::filesystem::path folder = std::filesystem::path(words->scene).parent_path();
+    const std::filesystem::path folder = std::filesystem::path(words->scene.file).parent_path();
     if (words->explain) {
       print_effects(explain_effects(spec, scene, folder, common.seed,
                                     [&](const std::string& line) { progress(common, line); }),

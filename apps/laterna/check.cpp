@@ -1,4 +1,5 @@
 #include "apps/laterna/command.h"
+#include "apps/laterna/scene_words.h"
 
 #include "sim/believed.h"
 #include "sim/scene_file.h"
@@ -11,13 +12,13 @@
 namespace laterna {
 
 void add_check(CLI::App& app, Common& common) {
-  auto scene = std::make_shared<std::string>();
+  auto scene = std::make_shared<SceneWords>();
   CLI::App* command = add_command(app, "check", "laterna check scene.toml",
                                   "Reads a scene and everything it names, and says what it holds, or in one "
                                   "sentence what is wrong with it.");
-  command->add_option("SCENE", *scene, "Scene file (TOML)")->required();
+  add_scene_words(*command, *scene);
   command->callback([scene, &common] {
-    const Scene loaded = load_scene(*scene);
+    const Scene loaded = load_scene(scene->file, scene->set);
     std::size_t triangles = 0;
     for (const Object& object : loaded.objects) triangles += object.mesh.triangles.size();
     std::optional<Scene> storage;
@@ -40,7 +41,7 @@ void add_check(CLI::App& app, Common& common) {
                              .dump());
       return;
     }
-    fmt::print("{}: sound: {} mesh(es) with {} triangles, {} projector(s), {} camera(s)\n", *scene,
+    fmt::print("{}: sound: {} mesh(es) with {} triangles, {} projector(s), {} camera(s)\n", scene->file,
                loaded.objects.size(), triangles, loaded.projectors.size(), loaded.cameras.size());
     if (meshes + cameras + uncertain > 0)
       fmt::print(

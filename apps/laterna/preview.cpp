@@ -1,4 +1,5 @@
 #include "apps/laterna/command.h"
+#include "apps/laterna/scene_words.h"
 
 #include "apps/lab/preview.h"
 #include "sim/scene_file.h"
@@ -26,17 +27,18 @@ nlohmann::json overlap_json(const Scene& scene, const Traced& traced) {
 
 void add_preview(CLI::App& app, Common& common) {
   struct Words {
-    std::string scene, out;
+    SceneWords scene;
+    std::string out;
   };
   auto words = std::make_shared<Words>();
   CLI::App* command = add_command(
       app, "preview", "laterna preview scene.toml -o rig.png",
       "Draws the rig in one picture: meshes, frusta, what is lit and seen, and the overlap in per cent.");
-  command->add_option("SCENE", words->scene, "Scene file (TOML)")->required();
+  add_scene_words(*command, words->scene);
   command->add_option("-o,--output", words->out, "Picture to write (default: preview.png)")
       ->default_str("preview.png");
   command->callback([words, &common] {
-    const Scene scene = load_scene(words->scene);
+    const Scene scene = load_scene(words->scene.file, words->scene.set);
     StageTimes times;
     const Traced traced = trace(scene, times, [&](const std::string& line) { progress(common, line); });
     write_canvas(words->out.empty() ? "preview.png" : words->out, preview_picture(scene, traced));

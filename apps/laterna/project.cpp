@@ -1,4 +1,5 @@
 #include "apps/laterna/command.h"
+#include "apps/laterna/scene_words.h"
 
 #include "sim/error.h"
 #include "sim/scene_file.h"
@@ -43,7 +44,8 @@ bool parse_point(const std::string& line, std::size_t number, glm::dvec3& x) {
 
 void add_project(CLI::App& app, Common&) {
   struct Words {
-    std::string scene, device;
+    SceneWords scene;
+    std::string device;
   };
   auto words = std::make_shared<Words>();
   CLI::App* command =
@@ -51,10 +53,10 @@ void add_project(CLI::App& app, Common&) {
                   "Reads world points `x y z` (metres), one a line, and prints `u v q`: pixel and axial "
                   "depth. u and v are nan where\n"
                   "q <= 0 or the lens fails; outside the image the numbers stand.");
-  command->add_option("SCENE", words->scene, "Scene file (TOML)")->required();
+  add_scene_words(*command, words->scene);
   command->add_option("--device", words->device, "Name of a projector or a camera")->required();
   command->callback([words] {
-    const Scene scene = load_scene(words->scene);
+    const Scene scene = load_scene(words->scene.file, words->scene.set);
     const WorldProjection projection(find_device(scene, words->device));
     std::string line;
     std::vector<glm::dvec3> points;  // all are read before the first answer: bad input leaves no half of one

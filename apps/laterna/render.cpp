@@ -1,4 +1,5 @@
 #include "apps/laterna/command.h"
+#include "apps/laterna/scene_words.h"
 
 #include "apps/lab/render_picture.h"
 #include "sim/scene_file.h"
@@ -11,7 +12,8 @@ namespace laterna {
 
 void add_render(CLI::App& app, Common& common) {
   struct Words {
-    std::string scene, out, show, kind;
+    SceneWords scene;
+    std::string out, show, kind;
     RenderOptions options;
   };
   auto words = std::make_shared<Words>();
@@ -20,7 +22,7 @@ void add_render(CLI::App& app, Common& common) {
       "One picture. photo: what the camera takes of the projector's picture. dual: the scene from the "
       "projector's seat, lit by\nthe camera (dual photography). bake: a photograph reprojected onto a mesh's "
       "own texture. An .exr holds numbers\n(apps/lab/render_picture.h).");
-  command->add_option("SCENE", words->scene, "Scene file (TOML)")->required();
+  add_scene_words(*command, words->scene);
   command->add_option("--as", words->kind, "photo, dual or bake")->required();
   command->add_option("-o,--output", words->out, "Picture: .png, .tif, .pgm or .exr")->required();
   command->add_option("--show", words->show,
@@ -40,7 +42,7 @@ void add_render(CLI::App& app, Common& common) {
     words->options.show = words->show;
     words->options.seed = common.seed;
     StageTimes times;
-    render_picture(load_scene(words->scene), words->options, words->out, times);
+    render_picture(load_scene(words->scene.file, words->scene.set), words->options, words->out, times);
     if (common.json)
       fmt::print("{}\n", nlohmann::json{{"picture", words->out}, {"seconds", times.total()}}.dump());
     else

@@ -1,3 +1,4 @@
+#include "apps/laterna/scene_words.h"
 #include "apps/laterna/solve_words.h"
 
 #include "apps/lab/roundtrip_folder.h"
@@ -12,7 +13,8 @@ namespace laterna {
 namespace {
 
 struct Words {
-  std::string scene, out;
+  SceneWords scene;
+  std::string out;
   TrialOptions options;
 };
 
@@ -24,8 +26,8 @@ std::string free_folder(const std::string& stem) {
 }
 
 int run(const Words& words, const Common& common) {
-  const Scene scene = load_scene(words.scene);
-  const std::string stem = std::filesystem::path(words.scene).stem().string();
+  const Scene scene = load_scene(words.scene.file, words.scene.set);
+  const std::string stem = std::filesystem::path(words.scene.file).stem().string();
   std::string target = words.out;
   if (target.empty() && !common.json) target = free_folder(stem);
   TrialOptions options = words.options;
@@ -54,7 +56,7 @@ void add_roundtrip(CLI::App& app, Common& common) {
                                   "from the pictures, and compares it with the\n"
                                   "true one. Exit code: 0 ok, 2 bad input, 3 refused, 4 weak. With --json "
                                   "and no -o, nothing is written.");
-  command->add_option("SCENE", words->scene, "Scene file (TOML)")->required();
+  add_scene_words(*command, words->scene);
   command->add_option("-o,--output", words->out, "New folder for the results (default: SCENE-roundtrip)");
   command->add_flag("--true-uv", words->options.true_uv,
                     "Takes the true projector pixels in place of capture and decoding");
