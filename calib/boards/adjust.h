@@ -19,9 +19,10 @@ struct Adjustment {
 };
 
 /// Minimises ½ Σ ρ(s) over everything that the problem's model frees, until Ceres finds convergence near
-/// rounding. Ceres sees one residual block per pose that holds the triangular factor of the pose's rows (the
-/// same cost, gradient and normal equations), and eliminates the poses (Schur). None where the start has a
-/// point behind a device, or something is not finite.
+/// rounding, or `max_iterations` are spent in a valley whose last fifty steps took less than 1e-4 off the
+/// loss. Ceres sees one residual block per pose that holds the triangular factor of the pose's rows (the same
+/// cost, gradient and normal equations), and eliminates the poses (Schur). None where the start has a point
+/// behind a device, or something is not finite.
 std::optional<Adjustment> adjust(const RigProblem& problem, const BoardRig& start, int max_iterations = 500);
 
 }  // namespace laterna

@@ -138,10 +138,30 @@ bool passes(const Candidate& c, const Candidate& current, const LadderOptions& o
          c.rung.typical_px < (1 - options.least_gain) * current.rung.typical_px;
 }
 
+// A start for many terms: the fit with those of OpenCV's first four, then with k3 too. From a pinhole a
+// rational model can wander off into a valley of its own.
+BoardRig nearer_start(const BoardCapture& capture, const BoardRig& start, bool estimate_sigma,
+                      const Terms& terms, const LadderOptions& options) {
+  BoardRig rig = start;
+  for (const char* word : {"opencv4", "opencv5"}) {
+    Terms fewer = terms;
+    for (auto& of_device : fewer) {
+      const std::vector<std::string> within = lens_terms(word);
+      std::erase_if(of_device, [&](const std::string& t) { return !has(within, t.c_str()); });
+    }
+    if (fewer == terms) break;
+    const bool bend = options.bend == LadderOptions::Bend::on;
+    if (const auto fit = fit_rig(capture, model_of(fewer, bend, options, capture), rig, estimate_sigma))
+      rig = fit->adjustment.rig;
+  }
+  return rig;
+}
+
 Candidate first_rung(const BoardCapture& capture, const BoardRig& start, bool estimate_sigma,
                      const Terms& terms, const LadderOptions& options) {
   Candidate first{terms, options.bend == LadderOptions::Bend::on, ""};
-  evaluate(first, capture, start, estimate_sigma, options);
+  evaluate(first, capture, nearer_start(capture, start, estimate_sigma, terms, options), estimate_sigma,
+           options);
   if (!first.fit) {
     std::string names;
     for (const auto& t : terms) names += (names.empty() ? "" : " and ") + terms_text(t);
