@@ -4,6 +4,7 @@
 #include "apps/lab/cell_seed.h"
 #include "apps/lab/grid_settings.h"
 #include "apps/lab/json_number.h"
+#include "apps/lab/peak_memory.h"
 #include "sim/error.h"
 #include "sim/fields.h"
 #include "sim/text_file.h"
@@ -114,9 +115,10 @@ double bound_of(const Planned& p, int k, const CellProblem& problem, const CellA
   return place->second;
 }
 
-/// What a seed gives: {"end", "reason", "error_px", "error_mm", "bound_px", "pictures", "seconds": [of each
-/// repeat], "stages": {name: [of each repeat]}}.
+/// What a seed gives: {"end", "reason", "error_px", "error_mm", "bound_px", "pictures", "peak_mib",
+/// "seconds": [of each repeat], "stages": {name: [of each repeat]}}.
 Json run_seed(const Planned& p, std::uint64_t seed, int k) {
+  const bool counts_memory = restart_peak_memory();
   const CellProblem problem = p.trial(cell_seed(p.cell, seed, k));
   Json json{{"seconds", Json::array()}, {"stages", Json::object()}};
   CellAnswer answer;
@@ -134,6 +136,7 @@ Json run_seed(const Planned& p, std::uint64_t seed, int k) {
   json["error_px"] = finite_or_null(answer.error_px), json["error_mm"] = finite_or_null(answer.error_mm);
   json["bound_px"] = finite_or_null(bound_of(p, k, problem, answer));
   json["pictures"] = answer.pictures;
+  json["peak_mib"] = finite_or_null(counts_memory ? peak_memory_mib() : NAN);
   return json;
 }
 
@@ -146,7 +149,7 @@ Json run_point(const Planned& p, std::uint64_t seed) {
 std::vector<double> numbers_under(const Json& runs, const char* key) {
   std::vector<double> numbers;
   for (const Json& run : runs)
-    if (run.at(key).is_number()) numbers.push_back(run[key].get<double>());
+    if (run.contains(key) && run[key].is_number()) numbers.push_back(run[key].get<double>());
   return numbers;
 }
 
@@ -198,6 +201,7 @@ void fill(Planned& p, const JobOutcome& outcome, const std::string& against) {
   point.error_px = quartiles(errors_of(runs));
   point.error_mm = quartiles(numbers_under(runs, "error_mm")).middle;
   point.bound_px = quartiles(numbers_under(runs, "bound_px")).middle;
+  point.peak_mib = quartiles(numbers_under(runs, "peak_mib")).middle;
   point.bound = point.kind == "pictures" ? "predicted_volume_rms_independent_px" : "cramer_rao";
   fill_seconds(runs, point);
   if (point.pictures > 0) point.capture_seconds = point.pictures * p.seconds_per_picture;

@@ -47,6 +47,7 @@ struct ChartPoint {
   double seconds = NAN;   ///< median over the seeds of the median of the repeats
   double seconds_low = NAN, seconds_high = NAN;        ///< the same of the repeats' least and largest
   std::vector<std::pair<std::string, double>> stages;  ///< seconds by stage, medians over all runs
+  double peak_mib = NAN;                               ///< peak_memory.h, while a seed ran: median over them
   int pictures = 0;                                    ///< that are shown
   double capture_seconds = NAN;                        ///< pictures × seconds_per_picture
   double x = NAN;                                      ///< what the chart draws it against

@@ -74,6 +74,7 @@ ChartPoint point_of(const Json& json, const std::string& against) {
   p.error_mm = number_or_nan(json, "error_mm"), p.bound_px = number_or_nan(json, "bound_px");
   p.bound = json.at("bound"), p.pictures = json.at("pictures");
   p.capture_seconds = number_or_nan(json, "capture_seconds");
+  p.peak_mib = number_or_nan(json, "peak_mib");
   read_seconds(json, against, p);
   return p;
 }
@@ -102,6 +103,7 @@ Json chart_json(const Chart& chart, const std::string& specification, std::uint6
                               {"seconds_low", finite_or_null(p.seconds_low)},
                               {"seconds_high", finite_or_null(p.seconds_high)},
                               {"stages", Json::object()},
+                              {"peak_mib", finite_or_null(p.peak_mib)},
                               {"x", finite_or_null(p.x)}});
     for (const auto& [name, seconds] : p.stages) json["points"][k]["stages"][name] = seconds;
   }
@@ -151,13 +153,13 @@ std::string chart_csv(const Chart& chart) {
   };
   std::string csv =
       "label,series,method,seeds,ok,weak,refused,crashed,error_px,error_low_px,error_high_px,error_mm,"
-      "bound_px,seconds,seconds_low,seconds_high,pictures,capture_seconds\n";
+      "bound_px,seconds,seconds_low,seconds_high,peak_mib,pictures,capture_seconds\n";
   for (const ChartPoint& p : chart.points)
-    csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", text_cell(p.label),
+    csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", text_cell(p.label),
                        text_cell(p.series), p.method, p.seeds, p.ok, p.weak, p.refused, p.crashed,
                        cell(p.error_px.middle), cell(p.error_px.low), cell(p.error_px.high), cell(p.error_mm),
                        cell(p.bound_px), cell(p.seconds), cell(p.seconds_low), cell(p.seconds_high),
-                       p.pictures, cell(p.capture_seconds));
+                       cell(p.peak_mib), p.pictures, cell(p.capture_seconds));
   return csv;
 }
 
@@ -171,15 +173,16 @@ std::string digits(double value, int significant) {
 
 std::string chart_text(const Chart& chart) {
   const std::vector<std::size_t> front = pareto_front(chart.points);
-  std::string text = fmt::format("  {:>10} {:>10} {:>10} {:>10} {:>10}  {}\n", "error px", "quartiles",
-                                 "bound px", "seconds", "run to run", "point");
+  std::string text = fmt::format("  {:>10} {:>10} {:>10} {:>10} {:>10} {:>9}  {}\n", "error px", "quartiles",
+                                 "bound px", "seconds", "run to run", "peak MiB", "point");
   std::string failures;
   for (std::size_t k = 0; k < chart.points.size(); ++k) {
     const ChartPoint& p = chart.points[k];
     const bool best = std::find(front.begin(), front.end(), k) != front.end();
-    text += fmt::format("{} {:>10} {:>10} {:>10} {:>10} {:>10}  {}\n", best ? '*' : ' ',
+    text += fmt::format("{} {:>10} {:>10} {:>10} {:>10} {:>10} {:>9}  {}\n", best ? '*' : ' ',
                         digits(p.error_px.middle, 4), digits(spread_px(p), 3), digits(p.bound_px, 4),
-                        digits(p.seconds, 3), digits(p.seconds_high - p.seconds_low, 2), p.label);
+                        digits(p.seconds, 3), digits(p.seconds_high - p.seconds_low, 2),
+                        digits(p.peak_mib, 4), p.label);
     if (p.refused + p.crashed > 0)
       failures += fmt::format("{}: {} of {} seeds refused, {} crashed: {}\n", p.label, p.refused, p.seeds,
                               p.crashed, p.reason);

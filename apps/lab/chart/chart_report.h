@@ -17,12 +17,12 @@ nlohmann::json chart_summary(const Chart& chart, const std::string& specificatio
 
 /// All that is known of each point, with the same keys beside "series", "kind", "method", "values", "seeds",
 /// "ok", "weak", "refused", "crashed", "reason", "error_low_px", "error_high_px" (the quartiles), "error_mm",
-/// "bound", "seconds_low", "seconds_high", "stages", "pictures", "capture_seconds", "x"; beside "chart",
-/// "against" and "threads".
+/// "bound", "seconds_low", "seconds_high", "stages", "peak_mib", "pictures", "capture_seconds", "x"; beside
+/// "chart", "against" and "threads".
 nlohmann::json chart_json(const Chart& chart, const std::string& specification, std::uint64_t seed);
 
 /// What holds on every machine: as chart_json(), with seconds over those of the fastest point
-/// ("seconds_ratio"), without stages, commands and threads.
+/// ("seconds_ratio"), without stages, memory, commands and threads.
 nlohmann::json chart_reference(const Chart& chart);
 
 /// What chart_json() or chart_reference() wrote; of the latter, seconds are ratios. Throws nlohmann's

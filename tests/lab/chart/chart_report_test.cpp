@@ -46,7 +46,7 @@ TEST(ChartReport, KeepsTheContract) {
 TEST(ChartReport, CsvHasALineForEachPoint) {
   const std::string csv = chart_csv(small());
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 3);
-  EXPECT_THAT(csv, HasSubstr("\"it's \"\"b\"\"\",\"s\",laterna,5,5,0,0,0,1,1,3,,1.5,1.5,,,0,\n"));
+  EXPECT_THAT(csv, HasSubstr("\"it's \"\"b\"\"\",\"s\",laterna,5,5,0,0,0,1,1,3,,1.5,1.5,,,,0,\n"));
 }
 
 TEST(ChartReport, AReferenceIsReadBack) {

@@ -1,4 +1,5 @@
 #include "apps/lab/chart/chart.h"
+#include "apps/lab/peak_memory.h"
 
 #include "apps/lab/chart/chart_report.h"
 #include "sim/text_file.h"
@@ -85,6 +86,7 @@ TEST(Chart, MeasuresEveryPointOfEveryGridByEveryMethod) {
     EXPECT_LE(p.error_px.low, p.error_px.middle);
     EXPECT_LE(p.error_px.middle, p.error_px.high);
     EXPECT_GT(p.seconds, 0);
+    EXPECT_EQ(std::isfinite(p.peak_mib), restart_peak_memory());
     EXPECT_EQ(p.x, p.seconds);
     EXPECT_LE(p.seconds_low, p.seconds);
     EXPECT_LE(p.seconds, p.seconds_high);
