@@ -83,7 +83,8 @@ TEST(KnownIntrinsics, WrongWordsAreOneSentence) {
 std::string one_pose_table() {
   std::string text = "pose,corner,board_x,board_y,board_z,cam_x,cam_y,proj_x,proj_y,valid\n";
   for (int i = 0; i < 20; ++i) {
-    const double x = i % 5 - 2.0, y = i / 5 - 1.5, z = 10 + 0.4 * x + 0.3 * y;  // tilted
+    const int row = i / 5, column = i % 5;
+    const double x = column - 2.0, y = row - 1.5, z = 10 + 0.4 * x + 0.3 * y;  // tilted
     text += fmt::format("0,{},{},{},0,{:.9f},{:.9f},{:.9f},{:.9f},1\n", i,
                         std::hypot(1, 0.4) * x + 0.12 / std::hypot(1, 0.4) * y,
                         std::sqrt(1 + 0.09 - 0.0144 / 1.16) * y, 199.5 + 400 * x / z, 124.5 + 400 * y / z,
