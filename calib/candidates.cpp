@@ -104,13 +104,12 @@ std::string ambiguity_of(const Refinement& best, const std::vector<Refinement>& 
   for (const Refinement& end : ends) {
     const glm::dmat3 turn =
         end.state.device_from_points.rotation * glm::transpose(best.state.device_from_points.rotation);
-    const double angle = std::acos(std::clamp((turn[0][0] + turn[1][1] + turn[2][2] - 1) / 2, -1.0, 1.0));
+    const double angle = glm::length(rotation_vector_rad(turn));
     if (!end.converged || angle < apart_rad || end.loss > best.loss + alike * std::max(1.0, scale * scale))
       continue;
     return fmt::format(
         "another placement, turned by {:.2g} deg, explains the points as well: a deeper scene, or pixels "
-        "over "
-        "more of the image, would tell them apart",
+        "over more of the image, would tell them apart",
         angle * 180 / std::numbers::pi);
   }
   return "";
