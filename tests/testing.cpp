@@ -25,6 +25,8 @@ std::uint64_t seed() {
   return hash;
 }
 
+std::filesystem::path data_folder() { return LATERNA_SOURCE_DIR "/data"; }
+
 std::mt19937_64 generator() { return std::mt19937_64(seed()); }
 
 ScratchFolder::ScratchFolder() {

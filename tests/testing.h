@@ -30,6 +30,9 @@ class ScratchFolder {
   std::filesystem::path path_;
 };
 
+/// The folder `data` of the sources.
+std::filesystem::path data_folder();
+
 /// Writes a text file and returns its path.
 std::filesystem::path write_text(const std::filesystem::path& path, const std::string& text);
 

@@ -13,7 +13,7 @@
 namespace laterna::gl {
 
 inline Scene shipped_scene(const std::string& name) {
-  return load_scene(std::string(LATERNA_SOURCE_DIR) + "/data/scenes/" + name + ".toml");
+  return load_scene(laterna::testing::data_folder() / "scenes" / (name + ".toml"));
 }
 
 /// The same without shadows, back faces and irradiance: each lit pixel shows the projector's picture as it

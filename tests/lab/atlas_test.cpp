@@ -19,7 +19,7 @@ using testing::input_error;
 using testing::ScratchFolder;
 using testing::write_text;
 
-const std::filesystem::path standard = std::filesystem::path(LATERNA_SOURCE_DIR) / "data/atlas/standard.toml";
+const std::filesystem::path standard = laterna::testing::data_folder() / "atlas/standard.toml";
 
 const std::string spec =
     "[[grid]]\nname = \"noise\"\nkind = \"points\"\nmethods = [\"laterna\", \"dlt\"]\nseeds = 4\npeer_seeds "
@@ -138,7 +138,7 @@ TEST(Atlas, ACellIsTheSameAlone) {
 // A cell of pictures leaves one: the camera's 400 px shrunk by 2, and as much again for the decoded columns.
 TEST(Atlas, ACellOfPicturesLeavesOneToLookAt) {
   const ScratchFolder folder;
-  const std::string scene = std::string(LATERNA_SOURCE_DIR) + "/data/atlas/small.toml";
+  const std::string scene = (laterna::testing::data_folder() / "atlas/small.toml").string();
   const auto file =
       write_text(folder / "a.toml",
                  "[[grid]]\nname = \"seen\"\nkind = \"pictures\"\nseeds = 1\nscene = \"" + scene + "\"\n");

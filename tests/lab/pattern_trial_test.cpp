@@ -15,7 +15,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using K = PatternKind;
 
-const std::filesystem::path scenes = std::filesystem::path(LATERNA_SOURCE_DIR) / "data/scenes";
+const std::filesystem::path scenes = laterna::testing::data_folder() / "scenes";
 
 SceneSpec small_spec(const PatternParameters& patterns) {
   SceneSpec spec = parse_scene(

@@ -13,7 +13,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-const std::filesystem::path scenes = std::filesystem::path(LATERNA_SOURCE_DIR) / "data/scenes";
+const std::filesystem::path scenes = laterna::testing::data_folder() / "scenes";
 
 std::vector<ProjectorOutcome> run(const Scene& scene, const TrialOptions& options = {}) {
   StageTimes times;

@@ -81,7 +81,7 @@ std::filesystem::path write_triangle_gltf(const ScratchFolder& folder, const std
 
 TEST(MeshFile, ReadsPlyAlsoPackedAndInCapitals) {
   const ScratchFolder folder;
-  const std::string cube = text_of(LATERNA_SOURCE_DIR "/data/meshes/cube.ply");
+  const std::string cube = text_of(laterna::testing::data_folder() / "meshes/cube.ply");
   for (const auto& path :
        {write_text(folder / "cube.ply", cube), write_text(folder / "CUBE.PLY", cube),
         write_gzip(folder / "cube.ply.gz", cube), write_gzip(folder / "cube.Ply.GZ", cube)}) {

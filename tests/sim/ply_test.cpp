@@ -142,7 +142,7 @@ TEST(Ply, WhatIsWrittenComesBackBitByBit) {
 
 TEST(Ply, ReadsTheCubeThatShips) {
   std::string text;
-  std::FILE* file = std::fopen(LATERNA_SOURCE_DIR "/data/meshes/cube.ply", "rb");
+  std::FILE* file = std::fopen((laterna::testing::data_folder() / "meshes/cube.ply").c_str(), "rb");
   ASSERT_NE(file, nullptr);
   for (int c = std::fgetc(file); c != EOF; c = std::fgetc(file)) text += char(c);
   std::fclose(file);

@@ -9,8 +9,7 @@ namespace laterna {
 namespace {
 
 TEST(SceneReference, TheCommittedPageIsTheGeneratedOne) {
-  const std::string committed =
-      read_text(std::filesystem::path(LATERNA_SOURCE_DIR) / "data/scene-reference.md", 1 << 20);
+  const std::string committed = read_text(laterna::testing::data_folder() / "scene-reference.md", 1 << 20);
   EXPECT_TRUE(committed == scene_reference_markdown())
       << "regenerate it: laterna info --scene-reference > data/scene-reference.md";
 }

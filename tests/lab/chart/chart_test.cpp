@@ -186,7 +186,8 @@ against = "capture_seconds"
 seconds_per_picture = 0.125
 seeds = 1
 repeats = 1
-scene = ")" LATERNA_SOURCE_DIR R"(/data/scenes/relief.toml"
+scene = ")" + (laterna::testing::data_folder() / "scenes/relief.toml").string() +
+                                                                  R"("
 "projector.size" = [[256, 128]]
 "camera.size" = [[160, 100]]
 )"),

@@ -40,7 +40,7 @@ void expect_near(const ChartPoint& now, const ChartPoint& stored) {
 // Every seventh point, the same in every run: seven is prime to the number of methods. On failure both charts
 // stay in the folder that the message names.
 TEST_P(StoredCharts, HoldToday) {
-  const std::filesystem::path folder = std::string(LATERNA_SOURCE_DIR) + "/data/charts";
+  const std::filesystem::path folder = laterna::testing::data_folder() / "charts";
   const std::string name = GetParam();
   Chart stored = read_chart_reference(read_text(folder / (name + ".json"), 1 << 24), name + ".json");
   std::vector<ChartPoint> kept;

@@ -23,7 +23,7 @@ using testing::ScratchFolder;
 using testing::write_text;
 using Json = nlohmann::json;
 
-const std::filesystem::path data = LATERNA_SOURCE_DIR "/data";
+const std::filesystem::path data = laterna::testing::data_folder();
 
 // A dome under Gray codes, small enough to be planned in a second.
 const std::string small = R"(
