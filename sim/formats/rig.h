@@ -1,0 +1,17 @@
+// A rig as calibration files know it: cameras and projectors, each with intrinsics, lens and placement.
+#pragma once
+
+#include "sim/device.h"
+
+#include <vector>
+
+namespace laterna {
+
+/// What one calibration file, in whatever format, says after reading: pixel centres at whole numbers, devices
+/// x right, y down, z forward, lengths in metres, device_from_world of the file's own world (which need not
+/// be the scene's). Light planes are not part of any such file and stand at their defaults.
+struct Rig {
+  std::vector<Device> cameras, projectors;
+};
+
+}  // namespace laterna
