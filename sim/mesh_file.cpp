@@ -1,88 +1,55 @@
 #include "sim/mesh_file.h"
 
-#include "sim/assimp_mesh.h"
+#include "sim/child_process.h"
 #include "sim/error.h"
-#include "sim/gzip.h"
+#include "sim/mesh_bytes.h"
 #include "sim/ply.h"
+#include "sim/run_path.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <fstream>
+#include <csignal>
 #include <utility>
 
 namespace laterna {
 
 namespace {
 
-std::string small_extension(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  for (char& c : extension)
-    if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
-  return extension;
+/// What the mesh reader's process ended with, in a sentence about the file.
+[[noreturn]] void refuse(const ChildOutcome& ended, const MeshEnding& ending, const std::string& name) {
+  const std::string reader = fmt::format("Assimp's {} reader", ending.extension);
+  if (ended.exit_code == 2) throw InputError(ended.errors);
+  if (ended.exit_code == 3)
+    throw InputError(
+        fmt::format("{}: {} asks for more memory than a file of this size may need: it is damaged or "
+                    "hostile",
+                    name, reader));
+  if (ended.signal == SIGXCPU)
+    throw InputError(
+        fmt::format("{}: {} works on it for longer than a file of this size may take: it is damaged or "
+                    "hostile",
+                    name, reader));
+  if (ended.signal != 0)
+    throw InputError(
+        fmt::format("{}: {} crashes on it (signal {}): it is damaged, or holds what that reader does not "
+                    "master",
+                    name, reader, ended.signal));
+  throw InputError(fmt::format("{}: {} fails on it: {}", name, reader, ended.errors));
 }
 
-void expect_file(const std::filesystem::path& path) {
-  std::error_code error;
-  const auto status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status)) throw InputError(path.string() + ": there is no such file");
-  if (std::filesystem::is_directory(status))
-    throw InputError(path.string() + ": is a folder, expected a mesh file");
-  if (!std::filesystem::is_regular_file(status)) throw InputError(path.string() + ": is no regular file");
-  if (!std::ifstream(path)) throw InputError(path.string() + ": cannot be opened for reading");
-  if (std::filesystem::file_size(path, error) == 0) throw InputError(path.string() + ": the file is empty");
-}
-
-std::string bytes_of(const std::filesystem::path& path) {
-  std::error_code error;
-  const auto size = std::filesystem::file_size(path, error);
-  if (error) throw InputError(path.string() + ": cannot be read");
-  std::string bytes(size, '\0');
-  std::ifstream file(path, std::ios::binary);
-  if (!file.read(bytes.data(), std::streamsize(bytes.size())))
-    throw InputError(path.string() + ": cannot be read to its end");
-  return bytes;
-}
-
-/// Assimp takes an IFC file that was cut short as fine.
-void expect_whole_ifc(std::string_view bytes, const std::string& name) {
-  const std::string_view tail = bytes.substr(bytes.size() - std::min<std::size_t>(bytes.size(), 1024));
-  if (tail.find("END-ISO-10303-21") != tail.npos) return;
-  throw InputError(name + ": does not end with `END-ISO-10303-21;`: the file is truncated or no IFC file");
-}
-
-Mesh read_bytes(std::string_view bytes, const std::string& extension, const std::string& name) {
-  if (extension == ".ply") return read_ply(bytes, name);
-  if (extension == ".ifc") expect_whole_ifc(bytes, name);
-  return read_with_assimp(bytes, extension, name);
-}
-
-void expect_known(const std::string& extension, const std::string& name) {
-  if (extension == ".ply" || assimp_reads(extension)) return;
-  throw InputError(
-      fmt::format("{}: the ending `{}` is no mesh format that is known, expected .ply, .obj, .stl, .off, "
-                  ".gltf, .glb, .ifc, .dae, .fbx, .3ds or another that Assimp reads, or one of them with "
-                  ".gz",
-                  name, extension));
-}
-
-Mesh read_unvalidated(const std::filesystem::path& path) {
-  const std::string name = path.string();
-  const std::string ending = small_extension(path);
-  const bool packed = ending == ".gz";
-  const std::string extension = packed ? small_extension(path.stem()) : ending;
-  expect_known(extension, name);
-  expect_file(path);
-  if (packed) return read_bytes(gunzip(bytes_of(path), name), extension, name);
-  // The others may refer to files beside them (glTF to its buffers), so Assimp has to know the path.
-  if (extension == ".ply" || extension == ".ifc") return read_bytes(bytes_of(path), extension, name);
-  return read_with_assimp(path, extension);
+Mesh read_in_child(const std::filesystem::path& path, const MeshEnding& ending) {
+  const ChildOutcome ended = run_child(find_on_run_path("laterna-mesh-reader"), {path.string()});
+  if (ended.exit_code != 0 || ended.signal != 0) refuse(ended, ending, path.string());
+  return read_ply(ended.output, path.string());
 }
 
 }  // namespace
 
 Mesh read_mesh(const std::filesystem::path& path) {
-  Mesh mesh = read_unvalidated(path);
+  const MeshEnding ending = mesh_ending(path);
+  if (ending.extension != ".ply") return read_in_child(path, ending);
+  expect_mesh_file(path);
+  Mesh mesh = read_ply(unpacked_bytes(path, ending.packed), path.string());
   validate(mesh, path.string());
   return mesh;
 }

@@ -9,8 +9,9 @@
 namespace laterna {
 
 /// Reads and validates a mesh file. The ending of its name, in capital or small letters, tells the format; a
-/// further
-/// `.gz` is unpacked first. `.ply` is read by read_ply, all others by the Assimp library.
+/// further `.gz` is unpacked first. `.ply` is read by read_ply, all others by the Assimp library in a process
+/// of its own with limits (laterna-mesh-reader): 1 GiB of memory and 20 s, and 64 bytes and 10 µs more for
+/// each byte of the file.
 ///
 /// **Axes and units: coordinates as they stand in the file.** No format is turned to another up axis. So z is
 /// up where the file's author had z up (IFC, most STL and PLY scans of buildings), and y where the format or
@@ -35,9 +36,9 @@ namespace laterna {
 /// as floats: 24 bits, some 1e-7 of the distance from the origin of each part. PLY has no such loss.
 ///
 /// Throws InputError, beginning with the path, where there is no such file, it cannot be read, its ending is
-/// not known, its gzip stream is broken, its reader refuses it or warns of an early end or of an index out of
-/// range, an IFC file lacks its last line, or validate() refuses the mesh. An OBJ file that was cut short
-/// between two lines cannot be told from a whole one.
+/// not known, its gzip stream is broken, its reader refuses it, crashes on it, exceeds its limits or warns of
+/// an early end or of an index out of range, an IFC file lacks its last line, or validate() refuses the mesh.
+/// An OBJ file that was cut short between two lines cannot be told from a whole one.
 Mesh read_mesh(const std::filesystem::path& path);
 
 /// Metres in one `unit`: "m", "mm", "cm", "km", "inch" (0.0254) or "foot" (0.3048, the international one).

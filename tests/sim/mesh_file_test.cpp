@@ -14,6 +14,7 @@
 namespace laterna {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using testing::input_error;
 using testing::ScratchFolder;
@@ -239,6 +240,20 @@ TEST(MeshFile, RefusesBrokenMeshes) {
              "3\nendloop\nendfacet\n",
              "unexpected EOF");
   is_refused("empty.ply", ply_bytes({{{0, 0, 0}}, {}, {}}), "the mesh has no triangles");
+}
+
+TEST(MeshFile, ACrashOfAssimpIsASentence) {
+  const ScratchFolder folder;
+  const auto path =
+      write_text(folder / "a.off", std::string("3 4\n0\0001 ", 8));  // fails an assertion of Assimp 5.2
+  EXPECT_THAT(refusal(path),
+              AllOf(StartsWith(path.string()), HasSubstr("Assimp's .off reader crashes on it (signal 6)")));
+}
+
+TEST(MeshFile, AskingForAllMemoryIsASentence) {
+  const ScratchFolder folder;
+  const auto path = write_text(folder / "a.off", "OFF\n4000000000 1 0\n0 0 3\n");
+  EXPECT_THAT(refusal(path), HasSubstr("Assimp's .off reader asks for more memory than"));
 }
 
 TEST(MeshFile, MetresPerUnit) {

@@ -1,4 +1,4 @@
-#include "sim/assimp_mesh.h"
+#include "sim/codec/assimp_mesh.h"
 
 #include "sim/error.h"
 
@@ -16,6 +16,7 @@
 #include <functional>
 #include <limits>
 #include <mutex>
+#include <new>
 #include <string_view>
 
 namespace laterna {
@@ -143,6 +144,8 @@ Mesh read_scene(const Read& read, const std::string& extension, const std::strin
   if (!scene || !scene->mRootNode) {
     std::string reason = importer.GetErrorString();
     std::replace(reason.begin(), reason.end(), '\n', ' ');
+    if (reason.find("bad_alloc") != reason.npos)
+      throw std::bad_alloc();  // Assimp catches it and keeps the name
     throw InputError(fmt::format("{}: cannot be read as {}: {}", name, extension, reason));
   }
   if (!damage.complaint.empty())

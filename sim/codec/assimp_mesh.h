@@ -1,4 +1,4 @@
-// Mesh formats that the Assimp library reads. Only sim/mesh_file.cpp needs it; read_mesh states the rules.
+// Mesh formats that the Assimp library reads. Only the mesh reader's own process links it (mesh_reader.cpp).
 #pragma once
 
 #include "sim/mesh.h"
