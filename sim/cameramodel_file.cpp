@@ -43,6 +43,22 @@ Device device_of(const mrcal_cameramodel_t& model) {
   return device;
 }
 
+/// mrcal's scanner (2.2) looks for the end of a string or comment past the end of the text.
+void expect_strings_that_end(const std::string& text, const std::string& file_name) {
+  int line = 1, begun = 0;
+  char inside = 0;  // a quote, # or nothing
+  for (const char c : text) {
+    const bool ends = inside == '#' ? c == '\n' : c == inside;
+    if (inside != 0 ? ends : c == '\'' || c == '"' || c == '#') {
+      inside = inside != 0 ? char(0) : c;
+      begun = line;
+    }
+    line += c == '\n';
+  }
+  if (inside != 0 && inside != '#')
+    throw InputError(fmt::format("{}:{}: a string begins here and never ends", file_name, begun));
+}
+
 }  // namespace
 
 Device read_cameramodel(const std::filesystem::path& path) {
@@ -53,7 +69,8 @@ Device read_cameramodel(const std::filesystem::path& path) {
 
 Device parse_cameramodel(const std::string& text, const std::string& file_name) {
   check_text(text, file_name);
-  const Model model(mrcal_read_cameramodel_string(text.c_str(), 0));
+  expect_strings_that_end(text, file_name);
+  const Model model(mrcal_read_cameramodel_string((text + "\n").c_str(), 0));
   if (!model) {
     throw InputError(
         fmt::format("{}: mrcal's parser finds no camera model in it, expected lensmodel, intrinsics, "

@@ -56,6 +56,9 @@ void progress(const Common& common, const std::string& line);
 /// Throws InputError where a file to write (empty: none) exists already, or its folder does not.
 void check_output(const std::string& out);
 
+/// The help of the command and of each of its subcommands, as one Markdown page.
+std::string command_reference_markdown(const CLI::App& app);
+
 /// "1920x1080" to a size. Throws InputError for anything else.
 std::array<int, 2> parse_size(const std::string& text, const char* option);
 

@@ -55,6 +55,7 @@ int run(int argc, char** argv) {
       "simulated camera,\n"
       "decodes the pictures, recovers the projector, and says how far its texture matrix is from the true "
       "one."};
+  app.name("laterna");
   app.set_version_flag("--version", LATERNA_VERSION);
   app.require_subcommand(1);
   app.fallthrough();
@@ -70,6 +71,13 @@ int run(int argc, char** argv) {
                          add_roundtrip, add_atlas, add_chart, add_plan, add_report}) {
     add(app, common);
   }
+  app.add_flag_callback(
+      "--command-reference",
+      [&app] {
+        fmt::print("{}", command_reference_markdown(app));
+        throw CLI::Success();
+      },
+      "Prints the help of every subcommand (Markdown)");
   app.parse_complete_callback([&] {
     set_thread_count(common.threads);
     cap_instruction_set(common.isa);

@@ -1,4 +1,5 @@
 // The command as a person would call it.
+#include "sim/text_file.h"
 #include "tests/command/run_command.h"
 #include "tests/testing.h"
 
@@ -334,6 +335,14 @@ TEST(Command, BadTablesAndWordsAreOneSentence) {
     EXPECT_THAT(result.err, HasSubstr(expected)) << words;
     EXPECT_EQ(result.out, "") << words;
   }
+}
+
+TEST(Command, TheCommittedReferenceIsTheGeneratedOne) {
+  const ScratchFolder scratch;
+  const auto page = laterna("--command-reference", scratch.path());
+  EXPECT_EQ(page.exit_code, 0);
+  EXPECT_TRUE(read_text(laterna::testing::data_folder() / "command-reference.md", 1 << 20) == page.out)
+      << "regenerate it: laterna --command-reference > data/command-reference.md";
 }
 
 TEST(Command, HelpBeginsWithAWorkingExample) {
