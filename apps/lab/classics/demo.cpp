@@ -36,11 +36,11 @@ ClassicDemo::ClassicDemo(Scene scene_to_show)
   white = scene.objects[0].albedo * full_lx / std::numbers::pi;
 }
 
-Image<double> ClassicDemo::passes(SlideOptions options) const {
+std::vector<Image<double>> ClassicDemo::passes(SlideOptions options, int steps) const {
   options.share = white_lx / full_lx;
   return draw_passes(fragments, {.ambient = scene.ambient_lx / full_lx,
-                                 .lights = {slide_shade(fragments, projector(), slide, options)}})
-      .back();
+                                 .lights = {slide_shade(fragments, projector(), slide, options)},
+                                 .steps = steps});
 }
 
 Image<double> ClassicDemo::core() const {

@@ -30,8 +30,8 @@ struct ClassicDemo {
   ClassicDemo& operator=(const ClassicDemo&) = delete;
   const Projector& projector() const { return scene.projectors[0]; }
 
-  /// The frame buffer after the last pass; options.share is set here.
-  Image<double> passes(SlideOptions options) const;
+  /// The frame buffer after each pass, in `steps` as FrameBuffer has them; options.share is set here.
+  std::vector<Image<double>> passes(SlideOptions options, int steps = 0) const;
 
   /// The core's picture in the frame buffer's scale.
   Image<double> core() const;

@@ -254,7 +254,7 @@ double share_of(const ClassicDemo& cured, const Image<double>& faulty, Unlit rea
 void show_faults(const ClassicDemo& demo, const std::filesystem::path& scenes, ClassicResult& result) {
   const ClassicDemo open(scenes / "lecture.toml", {"effects.shadow=false"});
   const ClassicDemo torch(scenes / "projected_light.toml");
-  const Image<double> reversed = torch.passes({.tests = {.q = false, .r = false}, .back_face = false});
+  const Image<double> reversed = torch.passes({.tests = {.q = false, .r = false}, .back_face = false}).back();
   const Image<double> penetrated = open.core();
   const double white = std::ranges::max(penetrated.values);
   result.pictures.push_back(

@@ -10,7 +10,7 @@ namespace laterna {
 struct LineChart {
   struct Series {
     std::string name;
-    std::vector<std::pair<double, double>> points;  ///< x, y; drawn where both are above 0
+    std::vector<std::pair<double, double>> points{};  ///< x, y; drawn where both are above 0
     double tolerance = 0.01;  ///< by what share of y another machine may find another value
   };
   std::string name;  ///< of its file, without ".svg"; begins with the classic's name

@@ -28,11 +28,11 @@ struct Fragments {
 using LightShade = std::function<std::optional<double>(const Fragments::OfObject&, std::size_t p)>;
 
 struct PassOptions {
-  double ambient = 0;              ///< what pass 1 draws
-  std::vector<LightShade> lights;  ///< of pass 2, one after the other
-  bool depth_again = true;         ///< pass 3
-  bool surface_texture = true;     ///< pass 4
-  int steps = 0;                   ///< FrameBuffer's
+  double ambient = 0;                ///< what pass 1 draws
+  std::vector<LightShade> lights{};  ///< of pass 2, one after the other
+  bool depth_again = true;           ///< pass 3
+  bool surface_texture = true;       ///< pass 4
+  int steps = 0;                     ///< FrameBuffer's
 };
 
 /// The frame buffer after each pass:

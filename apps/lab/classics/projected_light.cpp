@@ -63,8 +63,8 @@ double share_behind(const ClassicDemo& demo, const Image<double>& picture) {
 }
 
 void show_q_test(const ClassicDemo& demo, ClassicResult& result) {
-  const Image<double> without = demo.passes({.tests = {.q = false, .r = false}, .back_face = false});
-  const Image<double> with = demo.passes({.tests = {.r = false}, .back_face = false});
+  const Image<double> without = demo.passes({.tests = {.q = false, .r = false}, .back_face = false}).back();
+  const Image<double> with = demo.passes({.tests = {.r = false}, .back_face = false}).back();
   result.pictures.push_back(
       {"projected_light_q", side_by_side({{"no test of q", shown(without)}, {"q > 0", shown(with)}}, 2)});
   result.figures.insert(result.figures.end(),
@@ -73,8 +73,8 @@ void show_q_test(const ClassicDemo& demo, ClassicResult& result) {
 }
 
 void show_border(const ClassicDemo& demo, const std::filesystem::path& file, ClassicResult& result) {
-  const Image<double> smear = demo.passes({.tests = {.st = false}});
-  const Image<double> killed = demo.passes({});
+  const Image<double> smear = demo.passes({.tests = {.st = false}}).back();
+  const Image<double> killed = demo.passes({}).back();
   const ClassicDemo core(file, {"effects.border=false"});
   result.pictures.push_back(
       {"projected_light_border",
@@ -102,9 +102,10 @@ double lit_width_m(const ClassicDemo& demo) {
 void show_fov(const std::filesystem::path& file, ClassicResult& result) {
   std::vector<Panel> panels;
   for (const int fov_deg : {20, 40, 60}) {
-    const ClassicDemo demo(file, {fmt::format("projector.fov_y_deg={}", fov_deg),
-                                  "projector.position=[0.8, 0.5, 1.5]", "projector.look_at=[-2.6, 0.5, 1.5]"});
-    panels.push_back({fmt::format("{}°", fov_deg), shown(demo.passes({}))});
+    const ClassicDemo demo(
+        file, {fmt::format("projector.fov_y_deg={}", fov_deg), "projector.position=[0.8, 0.5, 1.5]",
+               "projector.look_at=[-2.6, 0.5, 1.5]"});
+    panels.push_back({fmt::format("{} degrees", fov_deg), shown(demo.passes({}).back())});
     const double width_m = 2 * 3.4 * std::tan(glm::radians(fov_deg / 2.0));
     result.figures.push_back({fmt::format("width on the wall at {}°, over 2z·tan(fov/2)", fov_deg),
                               lit_width_m(demo) / width_m, "", 1e-3});
@@ -157,7 +158,7 @@ void show_intensity(const ClassicDemo& demo, const std::filesystem::path& file, 
   for (double& value : four_shown.values) value *= brighter.full_lx / demo.full_lx;
   result.pictures.push_back(
       {"projected_light_intensity",
-       side_by_side({{"once", shown(once)}, {"× 4, clipped at white", shown(four_shown)}}, 2)});
+       side_by_side({{"once", shown(once)}, {"4 times, clipped at white", shown(four_shown)}}, 2)});
   const auto clipped =
       std::ranges::count_if(four_shown.values, [](double value) { return value > 1 + 1e-6; });
   result.figures.insert(

@@ -58,10 +58,11 @@ void show_divide(const ClassicDemo& demo, ClassicResult& result) {
       wrong.values[p] += demo.white_lx / demo.full_lx *
                          slide_value(demo.slide, per_vertex.values[p], Lookup::nearest, Wrap::clamp_to_edge);
   }
-  result.pictures.push_back({"shader_projector_divide",
-                             side_by_side({{"divide per fragment", shown(demo.passes({.back_face = false}))},
-                                           {"divide per vertex", shown(wrong)}},
-                                          2)});
+  result.pictures.push_back(
+      {"shader_projector_divide",
+       side_by_side({{"divide per fragment", shown(demo.passes({.back_face = false}).back())},
+                     {"divide per vertex", shown(wrong)}},
+                    2)});
   result.figures.insert(
       result.figures.end(),
       {{"divide per fragment to the core's (u, v), greatest",
@@ -80,7 +81,7 @@ void show_planes(const std::filesystem::path& file, ClassicResult& result) {
     const auto why = Unlit(demo.view.lights[0].why.values[p]);
     disagree += (strq.values[p].w > 0 && !(strq.values[p].z > 0)) != (why == Unlit::before_near);
   }
-  const auto picture = [&](bool with_r) { return shown(demo.passes({.tests = {.r = with_r}})); };
+  const auto picture = [&](bool with_r) { return shown(demo.passes({.tests = {.r = with_r}}).back()); };
   result.pictures.push_back(
       {"shader_projector_planes",
        side_by_side({{"q > 0", picture(false)}, {"r > 0: the near plane", picture(true)}}, 2)});

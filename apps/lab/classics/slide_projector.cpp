@@ -1,81 +1,15 @@
 #include "apps/lab/classics/slide_projector.h"
 
-#include "apps/lab/classics/core_picture.h"
-#include "apps/lab/classics/panels.h"
-#include "apps/lab/classics/passes.h"
-#include "sim/scene_file.h"
+#include "apps/lab/classics/demo.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace laterna {
 
 namespace {
 
-/// The demo: its scene, the core's view of it, and the fragments that passes draw.
-struct Demo {
-  Scene scene;
-  CoreView view;
-  Fragments fragments;
-  Image<float> slide;
-  double white_lx;  ///< of every lit point, without irradiance
-  double full_lx;   ///< with the ambient light: the frame buffer's 1
-  double white;     ///< luminance in cd/m² of the plain albedo in full_lx
-
-  explicit Demo(const std::filesystem::path& file, const std::vector<std::string>& set = {})
-      : scene(load_scene(file, set)), view(scene), fragments(scene) {
-    const Projector& projector = scene.projectors[0];
-    const Intrinsics& k = projector.device.intrinsics;
-    const PatternStack stack = slide_of(scene);
-    slide = Image<float>(stack.width, stack.height);
-    for (std::size_t i = 0; i < slide.values.size(); ++i)
-      slide.values[i] = stack.light_of_value[stack.values[i]];
-    white_lx = projector.flux_lm / (double(k.size.x) * k.size.y) * k.fx * k.fy;
-    full_lx = white_lx + scene.ambient_lx;
-    white = scene.objects[0].albedo * full_lx / std::numbers::pi;
-  }
-  const Projector& projector() const { return scene.projectors[0]; }
-  std::vector<Image<double>> passes(SlideOptions options, int steps = 0) const {
-    options.share = white_lx / full_lx;
-    return draw_passes(fragments, {.ambient = scene.ambient_lx / full_lx,
-                                   .lights = {slide_shade(fragments, projector(), slide, options)},
-                                   .steps = steps});
-  }
-  PixelArray<glm::dvec4> coordinates(CoordinateSource source) const {
-    return texture_coordinates(view.surface, scene, scene.cameras[0], projector(), source);
-  }
-};
-
-Image<float> floats(const Image<double>& image) {
-  Image<float> out(image.width, image.height);
-  std::copy(image.values.begin(), image.values.end(), out.values.begin());
-  return out;
-}
-
-// For the eye: 1 and above is white.
-Canvas shown(const Image<double>& image) { return grey_canvas(floats(image), 1); }
-
-Image<double> core_shares(const Demo& demo) {
-  const Image<float> picture = core_picture(demo.view);
-  Image<double> shares(picture.width, picture.height);
-  std::transform(picture.values.begin(), picture.values.end(), shares.values.begin(),
-                 [&](float value) { return value / demo.white; });
-  return shares;
-}
-
-double greatest_difference(const Image<double>& a, const Image<double>& b) {
-  double greatest = 0;
-  for (std::size_t p = 0; p < a.values.size(); ++p)
-    greatest = std::max(greatest, std::abs(a.values[p] - b.values[p]));
-  return greatest;
-}
-
-double share_that_differs(const Image<double>& a, const Image<double>& b) {
-  std::size_t count = 0;
-  for (std::size_t p = 0; p < a.values.size(); ++p) count += std::abs(a.values[p] - b.values[p]) > 1e-6;
-  return double(count) / double(a.values.size());
-}
+using Demo = ClassicDemo;
 
 // How far two ways to (s, t, r, q) lie apart, in projector pixels, where the point is before the projector.
 Image<float> distance_px(const Demo& demo, CoordinateSource a, CoordinateSource b) {
@@ -136,7 +70,7 @@ void show_coordinates(const Demo& demo, ClassicResult& result) {
 
 void show_passes(const Demo& demo, ClassicResult& result) {
   const auto exact = demo.passes({}), bits = demo.passes({}, 255);
-  const Image<double> core = core_shares(demo);
+  const Image<double> core = demo.core();
   result.pictures.push_back({"slide_projector", shown(core)});
   result.pictures.push_back(
       {"slide_projector_passes", side_by_side({{"1: ambient + depth", shown(exact[0])},
@@ -191,7 +125,7 @@ void show_planes(const std::filesystem::path& file, ClassicResult& result) {
   result.figures.insert(result.figures.end(), {{"light planes: pixels where r/q and depth disagree",
                                                 double(planes_that_disagree(demo)), "", 0},
                                                {"light planes: four passes to one, greatest share of white",
-                                                greatest_difference(picture, core_shares(demo)), "", 1e-6}});
+                                                greatest_difference(picture, demo.core()), "", 1e-6}});
 }
 
 // Pixels that show the slide on a face that is turned away from the projector.
@@ -219,7 +153,7 @@ void show_turned_away(const Demo& demo, const std::filesystem::path& file, Class
       {{"light on faces turned away, test off", share_turned_away(demo, off, dark), "", 1e-3},
        {"light on faces turned away, test on", share_turned_away(demo, on, dark), "", 0},
        {"test off: four passes to the core's `back_face = false`, greatest",
-        greatest_difference(off, core_shares(core_off)), "", 1e-6}});
+        greatest_difference(off, core_off.core()), "", 1e-6}});
 }
 
 }  // namespace
