@@ -47,6 +47,7 @@ void add_verify(CLI::App& app, Common& common);
 void add_roundtrip(CLI::App& app, Common& common);
 void add_atlas(CLI::App& app, Common& common);
 void add_chart(CLI::App& app, Common& common);
+void add_classics(CLI::App& app, Common& common);
 void add_plan(CLI::App& app, Common& common);
 void add_report(CLI::App& app, Common& common);
 
