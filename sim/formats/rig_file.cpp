@@ -40,7 +40,7 @@ const RigFormat& format_of(const fs::path& path) {
   if (!fs::exists(path)) throw InputError(path.string() + ": no such file or folder, expected a calibration");
   const Tree tree = tree_at(path);
   for (const RigFormat& format : rig_formats())
-    if (format.read && format.is(path, tree)) return format;
+    if (format.is(path, tree)) return format;
   throw InputError(
       fmt::format("{}: no calibration that is known, expected one of {}", path.string(), names_of_formats()));
 }
@@ -78,11 +78,10 @@ const RigFormat& format_to_write(const fs::path& path, const std::string& name) 
 
 Rig read_rig(const fs::path& path, const RigReadOptions& options) {
   const RigFormat& format = options.format.empty() ? format_of(path) : format_called(options.format);
-  if (!format.read) throw InputError(fmt::format("{} is written only", format.name));
   if (format.fixes_unit && options.unit_m != 1)
     throw InputError(
         fmt::format("{}: {} fixes its unit of length, expected no other", path.string(), format.name));
-  Rig rig = format.read(path);
+  Rig rig = format.read(path, options);
   try {
     set_size(rig.cameras, options.camera_size, "camera");
     set_size(rig.projectors, options.projector_size, "projector");

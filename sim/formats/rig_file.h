@@ -32,8 +32,8 @@ struct RigFormat {
   const char* sentence;  ///< for --help
   bool fixes_unit;       ///< lengths are in metres, millimetres or in what the file says
   bool (*is)(const std::filesystem::path& path, const Tree& tree);  ///< tree: null where the file is none
-  Rig (*read)(const std::filesystem::path& path);                   ///< null: written only
-  std::vector<RigText> (*write)(const Rig& rig, Notes& notes);      ///< null: read only
+  Rig (*read)(const std::filesystem::path& path, const RigReadOptions& options);
+  std::vector<RigText> (*write)(const Rig& rig, Notes& notes);  ///< null: read only
 };
 
 /// All of them; of several that recognise a file the first counts, and of several with an ending the first is
