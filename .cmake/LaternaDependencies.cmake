@@ -1,7 +1,7 @@
 # What Laterna links, in one place: the build and the installed package's config both read it.
 include(CMakeFindDependencyMacro)
 list(APPEND CMAKE_MODULE_PATH "${CMAKE_CURRENT_LIST_DIR}")
-foreach(package IN ITEMS glm TBB fmt nlohmann_json ZLIB mrcal Eigen3 Ceres CLI11 hwy meshoptimizer)
+foreach(package IN ITEMS glm TBB fmt nlohmann_json ZLIB mrcal Eigen3 Ceres CLI11 hwy meshoptimizer yaml-cpp pugixml)
   find_package(${package} REQUIRED)
 endforeach()
 find_package(embree 3 REQUIRED)

@@ -1,0 +1,58 @@
+#include "sim/formats/ros_camera_info.h"
+
+#include "sim/error.h"
+
+#include <fmt/format.h>
+
+namespace laterna {
+
+namespace {
+
+std::vector<double> matrix(const Place& place, std::size_t count) { return place.at("data").numbers(count); }
+
+Lens lens_of(const Place& file) {
+  const Place model = file.at("distortion_model");
+  const Place coefficients = file.at("distortion_coefficients");
+  const std::string name = model.text();
+  if (name != "plumb_bob" && name != "rational_polynomial")
+    fail_at(model, "plumb_bob or rational_polynomial");
+  return lens_from_opencv(matrix(coefficients, 0), coefficients.name);
+}
+
+std::string matrix_text(const char* key, int rows, const std::vector<double>& data) {
+  return fmt::format("{}:\n  rows: {}\n  cols: {}\n  data: [{}]\n", key, rows,
+                     data.size() / std::size_t(rows), joined(data));
+}
+
+}  // namespace
+
+Device parse_camera_info(const std::string& text, const std::string& file_name) {
+  const Tree tree = yaml_tree(text, file_name);
+  const Place file{&tree, file_name};
+  Device device;
+  device.name = file.at("camera_name").text();
+  const Place k = file.at("camera_matrix");
+  const glm::ivec2 size(file.at("image_width").whole_number(), file.at("image_height").whole_number());
+  device.intrinsics = intrinsics_from_k(matrix(k, 9), size, k.name);
+  device.lens = lens_of(file);
+  return device;
+}
+
+std::string camera_info_text(const Device& device, Notes& notes) {
+  const Intrinsics& k = device.intrinsics;
+  std::vector<double> lens = opencv_coefficients(device, "ROS's camera_info", 8);
+  const Rigid& place = device.device_from_world;
+  if (place.translation != glm::dvec3(0.0) || place.rotation != glm::dmat3(1.0))
+    notes.push_back(
+        fmt::format("ROS's camera_info holds no placement: that of \"{}\" is left out", device.name));
+  if (lens.size() < 5) lens.resize(5, 0.0);
+  return fmt::format("image_width: {}\nimage_height: {}\ncamera_name: {}\n", k.size.x, k.size.y,
+                     Tree(device.name).dump()) +
+         matrix_text("camera_matrix", 3, k_of(k)) +
+         fmt::format("distortion_model: {}\n", lens.size() == 8 ? "rational_polynomial" : "plumb_bob") +
+         matrix_text("distortion_coefficients", 1, lens) +
+         matrix_text("rectification_matrix", 3, {1, 0, 0, 0, 1, 0, 0, 0, 1}) +
+         matrix_text("projection_matrix", 3, {k.fx, 0, k.cx, 0, 0, k.fy, k.cy, 0, 0, 0, 1, 0});
+}
+
+}  // namespace laterna

@@ -1,0 +1,27 @@
+// ROS's camera_info files, as camera_calibration and camera_info_manager keep them: one device each, without
+// a place.
+//
+//   image_width, image_height, camera_name, camera_matrix: {rows: 3, cols: 3, data}, distortion_model:
+//   plumb_bob (k1, k2, t1, t2, k3) or rational_polynomial (k1, k2, t1, t2, k3, k4, k5, k6),
+//   distortion_coefficients: {rows, cols, data}, rectification_matrix, projection_matrix
+//
+// There and here alike: pixel centres at whole numbers, u right, v down, x right, y down, z forward; K row by
+// row; t1, t2 are OpenCV's p1, p2. Rectification and projection are passed over in reading, and are the
+// identity and [K | 0] in writing. A device whose camera_name begins with "proj" is a projector.
+// http://wiki.ros.org/camera_calibration_parsers
+#pragma once
+
+#include "sim/formats/parts.h"
+
+#include <string>
+
+namespace laterna {
+
+/// The device at the world's origin. Throws InputError, beginning with `file_name` and the key.
+Device parse_camera_info(const std::string& text, const std::string& file_name);
+
+/// Notes that the placement is lost. Throws InputError for a lens that is none of OpenCV's with up to eight
+/// terms.
+std::string camera_info_text(const Device& device, Notes& notes);
+
+}  // namespace laterna
