@@ -60,22 +60,46 @@ SceneSpec scene_of(const DatasetSpec& spec, const DrawnValues& drawn) {
   return scene;
 }
 
+namespace {
+
+// The first sample's values, with key k's distribution replaced; null leaves the key out.
+DrawnValues drawn_with(const DatasetSpec& spec, std::uint64_t seed, std::size_t k, const Json& instead) {
+  DrawnValues drawn;
+  for (std::size_t i = 0; i < spec.random.size(); ++i) {
+    const Json& value = i == k ? instead : spec.random[i].distribution;
+    if (!value.is_null()) add(drawn, spec.random[i].path, value, drawing(seed, 0, 0));
+  }
+  return drawn;
+}
+
+// What is wrong with a scene of these values; empty where nothing is.
+std::string fault_of(const DatasetSpec& spec, const DrawnValues& drawn, bool with_files) {
+  try {
+    const SceneSpec scene = scene_of(spec, drawn);
+    if (with_files) build_scene(scene, spec.scene_file.parent_path());
+    return {};
+  } catch (const InputError& error) {
+    return error.what();
+  }
+}
+
+}  // namespace
+
 void check_ends(const DatasetSpec& spec, std::uint64_t seed) {
-  for (const RandomKey& key : spec.random) {
-    for (const Json& end : ends_of(key.distribution)) {
-      DrawnValues drawn;
-      for (const RandomKey& other : spec.random)
-        add(drawn, other.path, other.place == key.place ? end : Json(other.distribution),
-            drawing(seed, 0, 0));
-      try {
-        const SceneSpec scene = scene_of(spec, drawn);
-        if (key.distribution.contains("choice")) build_scene(scene, spec.scene_file.parent_path());
-      } catch (const InputError& error) {
-        throw InputError(fmt::format("{}: {}", key.place, error.what()));
-      }
+  const auto refuse = [&](std::size_t k, const std::string& fault) {
+    throw InputError(fmt::format("{}: {}", spec.random[k].place, fault));
+  };
+  const std::string fault = fault_of(spec, draw_values(spec, seed, 0, 0), true);
+  for (std::size_t k = 0; !fault.empty() && k < spec.random.size(); ++k)  // the key without which it is sound
+    if (fault_of(spec, drawn_with(spec, seed, k, nullptr), true).empty()) refuse(k, fault);
+  if (!fault.empty()) throw InputError(fault);
+  for (std::size_t k = 0; k < spec.random.size(); ++k) {
+    const bool with_files = spec.random[k].distribution.contains("choice");
+    for (const Json& end : ends_of(spec.random[k].distribution)) {
+      const std::string at_end = fault_of(spec, drawn_with(spec, seed, k, end), with_files);
+      if (!at_end.empty()) refuse(k, at_end);
     }
   }
-  build_scene(scene_of(spec, draw_values(spec, seed, 0, 0)), spec.scene_file.parent_path());
 }
 
 }  // namespace laterna

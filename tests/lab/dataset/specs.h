@@ -31,7 +31,7 @@ inline const std::string tiny_spec = R"(
 name = "tiny"
 description = "Tiny pictures."
 scene = "scene.toml"
-tar_samples = 3
+tar_samples = 2
 correspondence_step_px = 2
 [reject]
 least_lit = 0.2
