@@ -3,6 +3,7 @@
 #include "apps/bench/timing.h"
 #include "apps/lab/dataset/dataset.h"
 #include "sim/capture_folder.h"
+#include "sim/image_file.h"
 #include "sim/parallel.h"
 #include "sim/safe_write.h"
 

@@ -67,7 +67,7 @@ Kept is what has at least {} of each camera's pixels lit, and {} of each project
 ## What a sample holds
 
 `sample.json` (`sample.schema.json` says what is in it: drawn values, sensors, effects, matrices), the scene
-(`scene.toml`, self-contained), the pictures, `truth/*.exr` (projector u and v, lit, depth, normal, world point, object),
+(`scene.toml`, self-contained), the pictures, `truth/*.npy` (projector u and v, depth, normal, object),
 `mask/*.png` (255 where both see), `correspondences/*.npy`. In `tars/` file `PATH` of sample `KEY` is `KEY.PATH` with dots for slashes.
 
 `checksums.txt` has a line per sample: `(cd samples/BLOCK/KEY && find . -type f -printf '%P\n' | LC_ALL=C sort | xargs sha256sum | sha256sum)`.

@@ -2,7 +2,7 @@
 //
 //   DIR/dataset.json                    what the set is: the same for all of its shards
 //   DIR/samples/BLOCK/KEY/              one sample: a capture folder (sim/capture_folder.h) with sample.json,
-//                                       mask/ and correspondences/
+//                                       truth/, mask/ and correspondences/
 //   DIR/tars/NAME-BLOCK.tar             the samples of a block, as WebDataset reads them
 //   DIR/tars/NAME-BLOCK.json            what it holds: key, checksum, bytes, rejections
 //   DIR/runs/I-of-K/                    a shard's journal, lock and cost

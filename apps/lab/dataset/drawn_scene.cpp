@@ -19,12 +19,12 @@ using Choose = std::function<Json(const Distribution&, const std::string& path)>
 void add(DrawnValues& drawn, const std::string& path, const Json& value, const Choose& choose) {
   if (is_distribution(value)) return add(drawn, path, choose(value, path), choose);
   if (!value.is_object()) return drawn.values.emplace_back(path, value), void();
-  for (const auto& [key, inner] : value.items()) add(drawn, path + "." + key, inner, choose);
+  for (const auto& [key, inner] : value.items()) add(drawn, fmt::format("{}.{}", path, key), inner, choose);
 }
 
 std::vector<std::string> overrides_of(const DrawnValues& drawn) {
   std::vector<std::string> texts;
-  for (const auto& [path, value] : drawn.values) texts.push_back(path + "=" + value.dump());
+  for (const auto& [path, value] : drawn.values) texts.push_back(fmt::format("{}={}", path, value.dump()));
   return texts;
 }
 
@@ -65,9 +65,9 @@ namespace {
 // The first sample's values, with key k's distribution replaced; null leaves the key out.
 DrawnValues drawn_with(const DatasetSpec& spec, std::uint64_t seed, std::size_t k, const Json& instead) {
   DrawnValues drawn;
-  for (std::size_t i = 0; i < spec.random.size(); ++i) {
-    const Json& value = i == k ? instead : spec.random[i].distribution;
-    if (!value.is_null()) add(drawn, spec.random[i].path, value, drawing(seed, 0, 0));
+  for (const RandomKey& key : spec.random) {
+    const Json& value = key.place == spec.random[k].place ? instead : key.distribution;
+    if (!value.is_null()) add(drawn, key.path, value, drawing(seed, 0, 0));
   }
   return drawn;
 }

@@ -3,11 +3,12 @@
 
 #include <span>
 #include <string>
+#include <vector>
 
 namespace laterna {
 
-/// The bytes of a .npy file (format 1.0): little-endian single precision, rows × columns, row by row.
-/// numpy.load() gives it back.
-std::string npy_bytes(std::span<const float> values, std::size_t columns);
+/// The bytes of a .npy file (format 1.0): little-endian single precision, of a shape whose product is the
+/// number of values, the last index running fastest. numpy.load() gives it back.
+std::string npy_bytes(std::span<const float> values, const std::vector<std::size_t>& shape);
 
 }  // namespace laterna

@@ -65,15 +65,19 @@ void write_maps(const Attempt& attempt, const View& view, const CapturedStack& p
   const Scene& scene = *attempt.scene;
   const std::string &camera = scene.cameras[view.camera].device.name,
                     &projector = scene.projectors[view.projector].device.name;
+  const std::size_t height = std::size_t(view.light.height), width = std::size_t(view.light.width);
+  write_file(root / truth_file(camera, projector),
+             npy_bytes(truth_map(attempt.traced, view), {height, width, truth_channels.size()}));
+  const std::vector<float> rows = correspondences(scene, view, pictures, step_px);
   write_picture(root / mask_file(camera, projector), both_see_mask(view.light));
   write_file(root / correspondence_file(camera, projector),
-             npy_bytes(correspondences(scene, view, pictures, step_px), correspondence_columns.size()));
+             npy_bytes(rows, {rows.size() / correspondence_columns.size(), correspondence_columns.size()}));
 }
 
 void fill_sample(const DatasetSpec& spec, const Attempt& attempt, const fs::path& root) {
   const Scene& scene = *attempt.scene;
-  for (const char* folder : {"mask", "correspondences"}) make_folders(root / folder);
-  CaptureOptions options{.seed = attempt.sample.capture_seed, .format = spec.settings.format};
+  for (const char* folder : {"truth", "mask", "correspondences"}) make_folders(root / folder);
+  CaptureOptions options{.seed = attempt.sample.capture_seed, .format = spec.settings.format, .truth = false};
   options.on_view = [&](int camera, int projector, const CapturedStack& pictures) {
     const std::size_t k = std::size_t(camera) * scene.projectors.size() + std::size_t(projector);
     write_maps(attempt, attempt.traced.views[k], pictures, spec.settings.correspondence_step_px, root);

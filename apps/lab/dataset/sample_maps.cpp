@@ -20,6 +20,21 @@ Image<std::uint8_t> both_see_mask(const LightMap& light) {
   return mask;
 }
 
+std::vector<float> truth_map(const Traced& traced, const View& view) {
+  const SurfaceMap& surface = traced.surfaces[view.camera];
+  const PixelArray<glm::dvec3> normals = normals_world(surface, traced.rays);
+  std::vector<float> values;
+  values.reserve(normals.values.size() * truth_channels.size());
+  for (std::size_t i = 0; i < normals.values.size(); ++i) {
+    const glm::dvec3 n = normals.values[i];
+    for (const double value :
+         {view.light.u_px.values[i], view.light.v_px.values[i], surface.depth_m.values[i], n.x, n.y, n.z,
+          surface.hit(i) ? double(surface.object.values[i]) : -1.0})
+      values.push_back(float(value));
+  }
+  return values;
+}
+
 std::vector<float> correspondences(const Scene& scene, const View& view, const CapturedStack& pictures,
                                    int step_px) {
   std::optional<DecodedMap> decoded;

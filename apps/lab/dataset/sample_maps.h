@@ -1,4 +1,4 @@
-// What a sample holds per view beside the capture itself: the both-see mask, and the correspondences.
+// What a sample holds per view beside its pictures: the truth per pixel, the both-see mask, correspondences.
 #pragma once
 
 #include "apps/lab/simulation.h"
@@ -11,6 +11,16 @@ namespace laterna {
 
 /// 255 where the camera sees light of the projector, else 0: the pixels that both see.
 Image<std::uint8_t> both_see_mask(const LightMap& light);
+
+/// The channels of a truth map.
+inline constexpr std::array truth_channels{"projector_u", "projector_v", "depth_m", "normal_x",
+                                           "normal_y",    "normal_z",    "object"};
+
+/// These numbers of what each pixel's centre sees, side by side, pixels row by row from the top: projector
+/// pixel (NaN where none), axial depth (NaN where nothing is seen), unit normal in the world (0 where nothing
+/// is seen), index of the mesh in the scene (-1: none). Uncompressed, since coding takes longer than the
+/// pictures do.
+std::vector<float> truth_map(const Traced& traced, const View& view);
 
 /// The columns of a correspondence table.
 inline constexpr std::array correspondence_columns{"camera_x",  "camera_y",  "true_u",   "true_v",

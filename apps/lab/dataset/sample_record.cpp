@@ -18,7 +18,7 @@ Json view_json(const CaptureSequence& s, const Sight& sight) {
   return {{"camera", s.camera},
           {"projector", s.projector},
           {"pictures", s.pictures},
-          {"truth", s.truth},
+          {"truth", truth_file(s.camera, s.projector)},
           {"mask", mask_file(s.camera, s.projector)},
           {"correspondences", correspondence_file(s.camera, s.projector)},
           {"saturation_cd_per_m2", s.saturation_cd_per_m2},
@@ -34,6 +34,10 @@ Json object_of(const std::vector<std::pair<std::string, Json>>& values) {
 }
 
 }  // namespace
+
+std::string truth_file(const std::string& camera, const std::string& projector) {
+  return fmt::format("truth/{}_{}.npy", camera, projector);
+}
 
 std::string mask_file(const std::string& camera, const std::string& projector) {
   return fmt::format("mask/{}_{}.png", camera, projector);
@@ -60,6 +64,7 @@ Json sample_record(const DrawnSample& sample, const Scene& scene, const CaptureM
               {"sensors", Json::object()},
               {"projector_effects", Json::object()},
               {"correspondence_columns", correspondence_columns},
+              {"truth_channels", truth_channels},
               {"views", Json::array()}};
   for (const Camera& camera : scene.cameras) record["sensors"][camera.device.name] = noun_json(camera.sensor);
   for (const Projector& projector : scene.projectors)
@@ -76,7 +81,7 @@ std::string sample_schema() {
   "type": "object",
   "required": ["format", "version", "key", "index", "seed", "capture_seed", "scene", "rejected", "drawn",
                "absent_meshes", "patterns", "effects", "calibration", "sensors", "projector_effects",
-               "correspondence_columns", "views"],
+               "correspondence_columns", "truth_channels", "views"],
   "additionalProperties": false,
   "properties": {
     "format": {"enum": ["laterna-sample"]},
@@ -99,6 +104,7 @@ std::string sample_schema() {
     "sensors": {"type": "object", "additionalProperties": {"type": "object", "required": ["kind", "bit_depth"]}},
     "projector_effects": {"type": "object", "additionalProperties": {"type": "object"}},
     "correspondence_columns": {"type": "array", "items": {"type": "string"}, "minItems": 8, "maxItems": 8},
+    "truth_channels": {"type": "array", "items": {"type": "string"}, "minItems": 7, "maxItems": 7},
     "views": {
       "type": "array", "minItems": 1,
       "items": {
@@ -109,7 +115,7 @@ std::string sample_schema() {
           "camera": {"type": "string"},
           "projector": {"type": "string"},
           "pictures": {"type": "array", "items": {"type": "string"}, "minItems": 1},
-          "truth": {"type": "string", "description": "EXR: projector.u, .v (px), projector.lit, depth.m, normal.xyz, world.xyz (m), object.id"},
+          "truth": {"type": "string", "description": "npy, single precision, height × width × truth_channels"},
           "mask": {"type": "string", "description": "PNG: 255 where camera and projector both see the point"},
           "correspondences": {"type": "string", "description": "npy, single precision, a row of correspondence_columns each"},
           "saturation_cd_per_m2": {"type": "number", "exclusiveMinimum": 0},

@@ -26,6 +26,7 @@ struct DrawnSample {
 nlohmann::json sample_record(const DrawnSample& sample, const Scene& scene, const CaptureManifest& manifest);
 
 /// Names of files of one view, relative to the sample.
+std::string truth_file(const std::string& camera, const std::string& projector);
 std::string mask_file(const std::string& camera, const std::string& projector);
 std::string correspondence_file(const std::string& camera, const std::string& projector);
 
