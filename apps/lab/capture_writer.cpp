@@ -100,6 +100,7 @@ CaptureSequence write_view(const Scene& scene, const SceneRays& rig, int camera,
         fmt::format("writing {} pictures of \"{}\" by \"{}\", exposed so that {:.4g} cd/m² fill the scale",
                     count_of(stack), sequence.projector, sequence.camera, saturation));
   }
+  if (options.on_view) options.on_view(camera, projector, stack);
   std::filesystem::create_directories(root / sequence.camera / sequence.projector);
   const auto write = [&](bool pictures, bool truth) {
     parallel_for(2, [&](std::size_t part) {
@@ -118,17 +119,10 @@ CaptureSequence write_view(const Scene& scene, const SceneRays& rig, int camera,
 
 }  // namespace
 
-std::vector<std::string> write_capture(const SceneSpec& spec, const Scene& scene,
-                                       const std::filesystem::path& folder,
-                                       const std::filesystem::path& target, const CaptureOptions& options,
-                                       StageTimes& times, const Progress& progress) {
+CaptureManifest fill_capture(const SceneSpec& spec, const Scene& scene, const SceneRays& rig,
+                             const std::filesystem::path& folder, const std::filesystem::path& root,
+                             const CaptureOptions& options, StageTimes& times, const Progress& progress) {
   check_format(options.format, scene);
-  PendingFolder pending(target);
-  const std::filesystem::path root = pending.path();
-  const SceneRays rig = make_rig(scene, times);
-  const std::vector<std::string> warnings = capture_warnings(scene, rig);
-  for (const std::string& warning : warnings)
-    if (progress) progress(warning);
   write_self_contained(spec, scene, folder, root);
   write_file(root / "matrices.json", matrices_json(scene).dump(2) + "\n");
   CaptureManifest manifest{"scene.toml", options.seed, "matrices.json", {}};
@@ -137,6 +131,20 @@ std::vector<std::string> write_capture(const SceneSpec& spec, const Scene& scene
     for (int projector = 0; projector < int(scene.projectors.size()); ++projector)
       manifest.sequences.push_back(write_view(scene, rig, camera, projector, root, options, times, progress));
   write_file(root / "manifest.json", manifest_json(manifest));
+  return manifest;
+}
+
+std::vector<std::string> write_capture(const SceneSpec& spec, const Scene& scene,
+                                       const std::filesystem::path& folder,
+                                       const std::filesystem::path& target, const CaptureOptions& options,
+                                       StageTimes& times, const Progress& progress) {
+  check_format(options.format, scene);
+  PendingFolder pending(target);
+  const SceneRays rig = make_rig(scene, times);
+  const std::vector<std::string> warnings = capture_warnings(scene, rig);
+  for (const std::string& warning : warnings)
+    if (progress) progress(warning);
+  fill_capture(spec, scene, rig, folder, pending.path(), options, times, progress);
   pending.commit();
   return warnings;
 }

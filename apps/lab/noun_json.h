@@ -1,4 +1,5 @@
-// A described noun (sim/fields.h) from a JSON object: for specifications whose values are swept.
+// A described noun (sim/fields.h) from a JSON object, for specifications whose values are swept; and to one,
+// for records.
 #pragma once
 
 #include "sim/error.h"
@@ -91,6 +92,55 @@ T noun_from_json(const nlohmann::json& object, const std::string& place) {
   describe(reader, noun);
   reader.expect_all_known();
   return noun;
+}
+
+/// The visitor that writes every field, defaults too: enumerations by name, vectors as arrays, tables as
+/// objects, what is absent as null.
+class JsonWriter {
+ public:
+  template <class T>
+  void operator()(const Field& field, T& value) {
+    object[field.key] = json_of(value);
+  }
+  nlohmann::json object = nlohmann::json::object();
+
+ private:
+  template <class T>
+  static nlohmann::json json_of(const T& value) {
+    if constexpr (Described<T>) {
+      JsonWriter writer;
+      T copy = value;
+      describe(writer, copy);
+      return writer.object;
+    } else if constexpr (Named<T>) {
+      return names_of(value)[std::size_t(value)];
+    } else {
+      return value;
+    }
+  }
+  template <class T>
+  static nlohmann::json json_of(const std::optional<T>& value) {
+    return value ? json_of(*value) : nlohmann::json(nullptr);
+  }
+  template <class T>
+  static nlohmann::json json_of(const std::vector<T>& values) {
+    nlohmann::json array = nlohmann::json::array();
+    for (const T& value : values) array.push_back(json_of(value));
+    return array;
+  }
+  template <glm::length_t n, class T>
+  static nlohmann::json json_of(const glm::vec<n, T>& value) {
+    nlohmann::json array = nlohmann::json::array();
+    for (glm::length_t i = 0; i < n; ++i) array.push_back(value[i]);
+    return array;
+  }
+};
+
+template <Described T>
+nlohmann::json noun_json(T noun) {
+  JsonWriter writer;
+  describe(writer, noun);
+  return writer.object;
 }
 
 }  // namespace laterna

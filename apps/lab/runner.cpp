@@ -3,12 +3,15 @@
 #include "sim/error.h"
 #include "sim/parallel.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <chrono>
 #include <csignal>
-#include <cstdio>
+#include <exception>
 #include <fstream>
 #include <map>
 #include <memory>
@@ -22,8 +25,6 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 using Clock = std::chrono::steady_clock;
-
-constexpr int deaths_of_a_job = 2;
 
 volatile std::sig_atomic_t stop_asked = 0;
 
@@ -86,25 +87,33 @@ Past read_journal(const fs::path& path, const std::string& fingerprint) {
   return past;
 }
 
-/// Appends whole lines.
+/// Appends whole lines. What did not fit on the disk is taken back.
 class Journal {
  public:
   Journal(fs::path path, bool is_new, const std::string& fingerprint)
-      : path_(std::move(path)), file_(std::fopen(path_.c_str(), "a"), &std::fclose) {
-    if (!file_)
+      : path_(std::move(path)),
+        file_(::open(path_.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC, 0666)) {
+    if (file_ < 0)
       throw InputError(fmt::format("{}: cannot be written, expected a folder for results", path_.string()));
     if (is_new) write({{"journal", 1}, {"fingerprint", fingerprint}});
   }
+  ~Journal() { ::close(file_); }
+  Journal(const Journal&) = delete;
+  Journal& operator=(const Journal&) = delete;
+
   void write(const Json& json) {
     const std::string line = json.dump() + "\n";
     const std::scoped_lock lock(mutex_);
-    if (std::fwrite(line.data(), 1, line.size(), file_.get()) != line.size() || std::fflush(file_.get()) != 0)
-      throw InputError(fmt::format("{}: cannot be written (is the disk full?)", path_.string()));
+    struct stat before {};
+    if (::fstat(file_, &before) == 0 && ::write(file_, line.data(), line.size()) == ssize_t(line.size()))
+      return;
+    [[maybe_unused]] const int taken_back = ::ftruncate(file_, before.st_size);
+    throw InputError(fmt::format("{}: cannot be written (is the disk full?)", path_.string()));
   }
 
  private:
   fs::path path_;
-  std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
+  int file_;
   std::mutex mutex_;
 };
 
@@ -163,8 +172,9 @@ Past past_of(const fs::path& journal, const RunnerOptions& options) {
                     options.folder.string()));
   if (!there && options.resume)
     throw InputError(fmt::format("{}: holds no run, expected one to resume", options.folder.string()));
-  if (there) drop_cut_line(journal);
-  return there ? read_journal(journal, options.fingerprint) : Past{};
+  if (!there) return {};
+  drop_cut_line(journal);
+  return fs::file_size(journal) > 0 ? read_journal(journal, options.fingerprint) : Past{};
 }
 
 }  // namespace
@@ -176,16 +186,15 @@ RunOutcome run_jobs(const std::vector<Job>& jobs, const RunnerOptions& options, 
     throw InputError(
         fmt::format("{}: {}, expected a folder for results", options.folder.string(), failed.message()));
   const fs::path path = options.folder / "journal.jsonl";
-  const bool is_new = !fs::exists(path);
   const Past past = past_of(path, options);
-  Journal journal(path, is_new, options.fingerprint);
+  Journal journal(path, !fs::exists(path) || fs::file_size(path) == 0, options.fingerprint);
   RunOutcome run{std::vector<JobOutcome>(jobs.size()), 0, false};
   std::vector<std::size_t> open;
   for (std::size_t k = 0; k < jobs.size(); ++k) {
     if (const auto end = past.ends.find(jobs[k].id); end != past.ends.end()) {
       run.jobs[k] = outcome_of(end->second);
     } else if (const auto begun = past.begun.find(jobs[k].id);
-               begun != past.begun.end() && begun->second >= deaths_of_a_job) {
+               begun != past.begun.end() && begun->second >= options.most_deaths) {
       const Json death{{"id", jobs[k].id}, {"crashed", "the process died of it"}};
       journal.write(death);
       run.jobs[k] = outcome_of(death);
@@ -195,19 +204,30 @@ RunOutcome run_jobs(const std::vector<Job>& jobs, const RunnerOptions& options, 
   }
   ProgressClock clock(progress, options.noun, jobs.size(), jobs.size() - open.size());
   const StopSignals signals;
+  // No exception leaves a body: it would cancel the loops inside the jobs in hand, which would not know.
+  std::exception_ptr fault;
+  std::mutex fault_mutex;
+  std::atomic<bool> failed_once = false;
   const auto one = [&](std::size_t n) {
-    if (stop_asked) return;
-    const Job& job = jobs[open[n]];
-    journal.write({{"begin", job.id}});
-    const Json end = end_of(job);
-    journal.write(end);
-    run.jobs[open[n]] = outcome_of(end);
-    clock.one_more();
+    if (stop_asked || failed_once) return;
+    try {
+      const Job& job = jobs[open[n]];
+      journal.write({{"begin", job.id}});
+      const Json end = options.stop_at_error ? Json{{"id", job.id}, {"result", job.work()}} : end_of(job);
+      journal.write(end);
+      run.jobs[open[n]] = outcome_of(end);
+      clock.one_more();
+    } catch (...) {
+      const std::scoped_lock lock(fault_mutex);
+      if (!fault) fault = std::current_exception();
+      failed_once = true;
+    }
   };
   if (options.parallel)
     parallel_for(open.size(), one);
   else
     for (std::size_t n = 0; n < open.size(); ++n) one(n);
+  if (fault) std::rethrow_exception(fault);
   for (const JobOutcome& job : run.jobs) run.done += job.done;
   run.interrupted = run.done < jobs.size();
   return run;

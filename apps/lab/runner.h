@@ -21,10 +21,12 @@ struct Job {
 
 struct RunnerOptions {
   std::filesystem::path folder;  ///< of the journal; made where it is not there
-  std::string fingerprint;    ///< of all that the results depend on beside the ids: the specification's text
-  bool resume = false;        ///< go on where the journal ends
-  bool parallel = true;       ///< false: one after the other, for jobs that measure seconds
-  std::string noun = "jobs";  ///< for progress: "cells", "points"
+  std::string fingerprint;     ///< of all that the results depend on beside the ids: the specification's text
+  bool resume = false;         ///< go on where the journal ends
+  bool parallel = true;        ///< false: one after the other, for jobs that measure seconds
+  std::string noun = "jobs";   ///< for progress: "cells", "points"
+  bool stop_at_error = false;  ///< an exception of a job ends the run and is thrown; the job stays to be done
+  int most_deaths = 2;         ///< of the process in one job, which then counts as crashed
 };
 
 /// How a job ended.
@@ -42,13 +44,13 @@ struct RunOutcome {
 
 /// Runs the jobs that the journal has no end of. FOLDER/journal.jsonl gets a line when a job begins and one,
 /// whole, when it ends, so that nothing finished is lost, however the run ends. An exception of a job is its
-/// outcome, not the run's; a job in which the process died is tried once more and then counts as crashed.
-/// SIGINT and SIGTERM let the jobs in hand finish; a second one ends the process. Progress comes at most
-/// every two seconds, with the time left.
+/// outcome, not the run's, unless the options say otherwise; a job in which the process died is tried once
+/// more and then counts as crashed. SIGINT and SIGTERM let the jobs in hand finish; a second one ends the
+/// process. Progress comes at most every two seconds, with the time left.
 ///
 /// Throws InputError where the folder holds a journal and `resume` is off, or it holds none and `resume` is
 /// on; where the journal is of another fingerprint, or is no journal; where it cannot be written. A last line
-/// cut short is no fault.
+/// cut short is no fault, and neither is a journal of which nothing else was written yet.
 RunOutcome run_jobs(const std::vector<Job>& jobs, const RunnerOptions& options,
                     const Progress& progress = {});
 

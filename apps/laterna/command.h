@@ -40,6 +40,7 @@ void add_live(CLI::App& app, Common& common);
 void add_patterns(CLI::App& app, Common& common);
 void add_capture(CLI::App& app, Common& common);
 void add_render(CLI::App& app, Common& common);
+void add_dataset(CLI::App& app, Common& common);
 void add_decode(CLI::App& app, Common& common);
 void add_convert(CLI::App& app, Common& common);
 void add_calibrate(CLI::App& app, Common& common);

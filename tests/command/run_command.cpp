@@ -15,6 +15,8 @@ std::string read_text(const std::filesystem::path& path) {
   return text.str();
 }
 
+std::string laterna_path() { return LATERNA_COMMAND; }
+
 CommandResult laterna(const std::string& words, const std::filesystem::path& folder, const std::string& input,
                       const std::string& before) {
   const std::filesystem::path scratch = folder.string() + ".std";

@@ -16,6 +16,9 @@ struct CommandResult {
 CommandResult laterna(const std::string& words, const std::filesystem::path& folder,
                       const std::string& input = "", const std::string& before = "");
 
+/// Where the command stands, for what calls it by other means.
+std::string laterna_path();
+
 /// The whole of a file.
 std::string read_text(const std::filesystem::path& path);
 

@@ -1,5 +1,6 @@
 #include "apps/lab/runner.h"
 
+#include "sim/error.h"
 #include "sim/parallel.h"
 #include "tests/testing.h"
 
@@ -98,6 +99,33 @@ TEST(Runner, AJobThatThrowsOrKillsTwiceIsCrashedAndTheRestGoesOn) {
   options.resume = true;
   EXPECT_THAT(run_jobs(squares(5, worked), options).jobs[4].crashed, HasSubstr("died"));
   EXPECT_EQ(run_jobs(squares(5, worked), options).jobs[1].crashed, "went wrong");
+}
+
+TEST(Runner, OnRequestAnExceptionEndsTheRunAndTheJobStaysToBeDone) {
+  const ScratchFolder folder;
+  std::atomic<int> worked{0};
+  std::vector<Job> jobs = squares(4, worked);
+  jobs[1].work = []() -> nlohmann::json { throw InputError("the disk is full"); };
+  RunnerOptions options{.folder = folder / "a", .fingerprint = "f", .parallel = false, .stop_at_error = true};
+  EXPECT_EQ(input_error([&] { run_jobs(jobs, options); }), "the disk is full");
+  EXPECT_EQ(worked, 1);
+  options.resume = true;
+  EXPECT_EQ(run_jobs(squares(4, worked), options).done, 4u);
+  EXPECT_EQ(worked, 4);
+}
+
+// A process may die of its machine, not of the job, and before it wrote anything.
+TEST(Runner, OnRequestNoNumberOfDeathsMakesACrash) {
+  const ScratchFolder folder;
+  std::atomic<int> worked{0};
+  std::filesystem::create_directories(folder / "a");
+  testing::write_text(folder / "a" / "journal.jsonl", "{\"journal\":1,\"fing");
+  const RunnerOptions options{
+      .folder = folder / "a", .fingerprint = "f", .resume = true, .most_deaths = 1000};
+  EXPECT_EQ(run_jobs(squares(2, worked), options).done, 2u);
+  std::ofstream(folder / "a" / "journal.jsonl", std::ios::app)
+      << "{\"begin\":\"square 2\"}\n{\"begin\":\"square 2\"}\n{\"begin\":\"square 2\"}\n";
+  EXPECT_EQ(run_jobs(squares(3, worked), options).jobs[2].result["value"], 4);
 }
 
 TEST(Runner, BadInput) {
