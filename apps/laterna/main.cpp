@@ -67,7 +67,7 @@ int run(int argc, char** argv) {
   app.add_flag("--json", common.json, "Prints JSON for machines on standard output, and nothing else there");
   for (const auto add : {add_new, add_check, add_info, add_project, add_preview, add_live, add_patterns,
                          add_capture, add_render, add_decode, add_calibrate, add_selfcal, add_verify,
-                         add_roundtrip, add_atlas, add_chart, add_plan, add_report}) {
+                         add_roundtrip, add_atlas, add_chart, add_plan, add_report, add_score}) {
     add(app, common);
   }
   app.parse_complete_callback([&] {
