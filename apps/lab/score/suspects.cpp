@@ -23,6 +23,7 @@ struct Trial {
 };
 
 double needed_share(const Trial& trial) {
+  if (trial.parameters > 1 && trial.suspect == "keystone") return 0.999;
   if (trial.parameters > 0) return 0.99;
   return trial.suspect == "half_pixel" ? 0.9 : 0.8;
 }
