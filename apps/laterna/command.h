@@ -52,6 +52,7 @@ void add_chart(CLI::App& app, Common& common);
 void add_classics(CLI::App& app, Common& common);
 void add_plan(CLI::App& app, Common& common);
 void add_report(CLI::App& app, Common& common);
+void add_score(CLI::App& app, Common& common);
 
 /// A line of progress on standard error, unless --json is on.
 void progress(const Common& common, const std::string& line);

@@ -66,10 +66,10 @@ int run(int argc, char** argv) {
       "--isa", common.isa,
       fmt::format("Uses no more than this instruction set: {}", fmt::join(instruction_set_names(), ", ")));
   app.add_flag("--json", common.json, "Prints JSON for machines on standard output, and nothing else there");
-  for (const auto add :
-       {add_new,     add_check,     add_info,   add_project, add_preview,   add_live,    add_patterns,
-        add_capture, add_dataset,   add_render, add_decode,  add_calibrate, add_selfcal, add_verify,
-        add_convert, add_roundtrip, add_atlas,  add_chart,   add_classics,  add_plan,    add_report}) {
+  for (const auto add : {add_new,      add_check,    add_info,    add_project, add_preview,   add_live,
+                         add_patterns, add_capture,  add_dataset, add_render,  add_decode,    add_calibrate,
+                         add_selfcal,  add_verify,   add_score,   add_convert, add_roundtrip, add_atlas,
+                         add_chart,    add_classics, add_plan,    add_report}) {
     add(app, common);
   }
   app.add_flag_callback(
