@@ -26,6 +26,10 @@ function(laterna_library folder)
   add_library(laterna_${name} STATIC ${sources} ${headers})
   add_library(laterna::${name} ALIAS laterna_${name})
   set_target_properties(laterna_${name} PROPERTIES EXPORT_NAME ${name})
+  if(python_module)  # it is a shared object; nobody replaces one of its functions from outside, so they may be inlined
+    set_target_properties(laterna_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+    target_compile_options(laterna_${name} PRIVATE -fno-semantic-interposition)
+  endif()
   target_include_directories(laterna_${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
                              $<INSTALL_INTERFACE:include/laterna>)
   list(TRANSFORM arg_LINKS PREPEND laterna_)

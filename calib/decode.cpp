@@ -39,7 +39,7 @@ double default_step_px(const PatternSequence& sequence) {
   return fringe_pitches_px(sequence.parameters, sequence.projector_size.x)[0] / 2;
 }
 
-DecodedMap decode_family(const CapturedStack& pictures, const PatternSequence& sequence,
+DecodedMap decode_family(const CapturedView& pictures, const PatternSequence& sequence,
                          const DecodeOptions& options) {
   switch (sequence.parameters.kind) {
     case PatternKind::gray:
@@ -71,7 +71,7 @@ void reject_steep(DecodedMap& map, double max_neighbour_step_px) {
     if (steep[i]) reject(map, i, Reject::steep);
 }
 
-DecodedMap decode(const CapturedStack& pictures, const PatternSequence& sequence,
+DecodedMap decode(const CapturedView& pictures, const PatternSequence& sequence,
                   const DecodeOptions& options) {
   if (options.max_neighbour_step_px && !(*options.max_neighbour_step_px >= 0))
     throw InputError(fmt::format("decode: a neighbours' step of {} px, expected at least 0",

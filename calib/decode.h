@@ -21,7 +21,7 @@ struct DecodeOptions {
 /// Decodes by family: decode_gray(), decode_phase() or decode_board(), then looks at the neighbours. A
 /// repeated first picture is left out (report_on() compares it). Throws InputError as those do, and for a
 /// slide or pictures from files, which tell no pixel its place.
-DecodedMap decode(const CapturedStack& pictures, const PatternSequence& sequence,
+DecodedMap decode(const CapturedView& pictures, const PatternSequence& sequence,
                   const DecodeOptions& options = {});
 
 /// Rejects what is steep; as decode() says.

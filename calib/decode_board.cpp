@@ -27,13 +27,13 @@ struct Corners {
 };
 
 template <class T>
-bool is_lit(const ImageStack<T>& stack, std::size_t i) {
+bool is_lit(const ImageStackView<T>& stack, std::size_t i) {
   return stack.picture(1)[i] - stack.picture(2)[i] > least_contrast * (sizeof(T) == 1 ? 255 : 65535);
 }
 
 /// The board's picture between black (0) and white (255); grey where nothing is lit.
 template <class T>
-cv::Mat flat_picture(const ImageStack<T>& stack) {
+cv::Mat flat_picture(const ImageStackView<T>& stack) {
   cv::Mat flat(stack.height, stack.width, CV_8UC1, cv::Scalar(255));
   for (std::size_t i = 0; i < stack.picture_size(); ++i) {
     if (!is_lit(stack, i)) continue;
@@ -106,7 +106,7 @@ void set_corner(const Corners& corners, const BoardLayout& layout, int i, int j,
 
 }  // namespace
 
-DecodedMap decode_board(const CapturedStack& pictures, const PatternSequence& sequence) {
+DecodedMap decode_board(const CapturedView& pictures, const PatternSequence& sequence) {
   validate(sequence);
   return std::visit(
       [&](const auto& stack) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "calib/decoded_map.h"
+#include "sim/image_view.h"
 #include "sim/pattern_sequence.h"
 
 namespace laterna {
@@ -14,6 +15,6 @@ namespace laterna {
 ///
 /// A chessboard must be seen whole, and does not tell a mirrored picture from a plain one; markers do. No
 /// board found: a map without a valid pixel. Throws InputError where the pictures are not three.
-DecodedMap decode_board(const CapturedStack& pictures, const PatternSequence& sequence);
+DecodedMap decode_board(const CapturedView& pictures, const PatternSequence& sequence);
 
 }  // namespace laterna

@@ -28,11 +28,11 @@ struct Limits {
 
 template <class T>
 struct GrayPictures {
-  const ImageStack<T>& stack;
+  ImageStackView<T> stack;
   PairPictures<T> columns, rows;
   Limits limits;
 
-  GrayPictures(const ImageStack<T>& pictures, const PatternSequence& sequence, const Limits& thresholds)
+  GrayPictures(const ImageStackView<T>& pictures, const PatternSequence& sequence, const Limits& thresholds)
       : stack(pictures), columns(pictures, sequence, 0), rows(pictures, sequence, 1), limits(thresholds) {}
 };
 
@@ -114,7 +114,7 @@ void decode_codes(const GrayPictures<T>& pictures, GrayCodes& codes) {
   });
 }
 
-Limits limits_of(const CapturedStack& pictures, const PatternSequence& sequence,
+Limits limits_of(const CapturedView& pictures, const PatternSequence& sequence,
                  const GrayDecodeOptions& options) {
   const double unit = full_scale_dn(pictures) / 255.0;
   const double white_minus_black = unit * options.min_white_minus_black_dn;
@@ -126,7 +126,8 @@ Limits limits_of(const CapturedStack& pictures, const PatternSequence& sequence,
 }
 
 template <class T>
-void validate(const ImageStack<T>& stack, const PatternSequence& sequence, const GrayDecodeOptions& options) {
+void validate(const ImageStackView<T>& stack, const PatternSequence& sequence,
+              const GrayDecodeOptions& options) {
   const int expected = picture_count(sequence);
   if (stack.count != expected) {
     throw InputError(fmt::format("Gray code: {} pictures, expected {} for a projector of {}×{}", stack.count,
@@ -142,7 +143,7 @@ void validate(const ImageStack<T>& stack, const PatternSequence& sequence, const
 
 /// Checks everything and calls body(GrayPictures).
 template <class Body>
-auto with_pictures(const CapturedStack& pictures, const PatternSequence& sequence,
+auto with_pictures(const CapturedView& pictures, const PatternSequence& sequence,
                    const GrayDecodeOptions& options, const Body& body) {
   validate(sequence);
   const PatternKind kind = sequence.parameters.kind;
@@ -165,19 +166,19 @@ void fit_size(Image<Value>& image, int width, int height) {
 
 }  // namespace
 
-DecodedMap decode_gray(const CapturedStack& pictures, const PatternSequence& sequence,
+DecodedMap decode_gray(const CapturedView& pictures, const PatternSequence& sequence,
                        const GrayDecodeOptions& options) {
   DecodedMap map = with_pictures(pictures, sequence, options, [](const auto& gray) { return decode(gray); });
   if (options.subpixel) refine_at_crossings(pictures, sequence, map);
   return map;
 }
 
-DecodedMap decode_gray(const CapturedStack& pictures, glm::ivec2 projector_size,
+DecodedMap decode_gray(const CapturedView& pictures, glm::ivec2 projector_size,
                        const GrayDecodeOptions& options) {
   return decode_gray(pictures, PatternSequence{{}, projector_size}, options);
 }
 
-void decode_gray_codes(const CapturedStack& pictures, const PatternSequence& sequence,
+void decode_gray_codes(const CapturedView& pictures, const PatternSequence& sequence,
                        const GrayDecodeOptions& options, GrayCodes& codes) {
   with_pictures(pictures, sequence, options, [&](const auto& gray) {
     fit_size(codes.column, gray.stack.width, gray.stack.height);
@@ -187,7 +188,7 @@ void decode_gray_codes(const CapturedStack& pictures, const PatternSequence& seq
   });
 }
 
-double picture_noise_dn(const CapturedStack& pictures, double min_white_minus_black) {
+double picture_noise_dn(const CapturedView& pictures, double min_white_minus_black) {
   const int count = std::visit([](const auto& stack) { return stack.count; }, pictures);
   if (count < 2) throw InputError("Gray code: fewer than two pictures, expected white and black");
   std::vector<PatternGroup> pairs;

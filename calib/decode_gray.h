@@ -2,7 +2,7 @@
 #pragma once
 
 #include "calib/decoded_map.h"
-#include "sim/image.h"
+#include "sim/image_view.h"
 #include "sim/pattern_sequence.h"
 
 #include <glm/glm.hpp>
@@ -37,11 +37,11 @@ struct GrayDecodeOptions {
 ///
 /// Throws InputError where the number of pictures is not that of the sequence, or a threshold is not finite
 /// or the stack is empty. The same bits for any number of threads.
-DecodedMap decode_gray(const CapturedStack& pictures, const PatternSequence& sequence,
+DecodedMap decode_gray(const CapturedView& pictures, const PatternSequence& sequence,
                        const GrayDecodeOptions& options = {});
 
 /// The same of a Gray code (sim/pattern.h) for `projector_size`.
-DecodedMap decode_gray(const CapturedStack& pictures, glm::ivec2 projector_size,
+DecodedMap decode_gray(const CapturedView& pictures, glm::ivec2 projector_size,
                        const GrayDecodeOptions& options = {});
 
 /// Columns, rows and validity alone, as integers: what decode_gray finds, in a quarter of the memory.
@@ -51,11 +51,11 @@ struct GrayCodes {
 };
 
 /// Writes them into `codes`, whose memory is used again where the size is right.
-void decode_gray_codes(const CapturedStack& pictures, const PatternSequence& sequence,
+void decode_gray_codes(const CapturedView& pictures, const PatternSequence& sequence,
                        const GrayDecodeOptions& options, GrayCodes& codes);
 
 /// sum_noise_dn() of pairs: the pictures but the last two, two by two. Throws InputError where there are
 /// fewer than two pictures.
-double picture_noise_dn(const CapturedStack& pictures, double min_white_minus_black);
+double picture_noise_dn(const CapturedView& pictures, double min_white_minus_black);
 
 }  // namespace laterna

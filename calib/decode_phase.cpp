@@ -29,7 +29,7 @@ struct Setting {
 };
 
 /// The lower median over the groups: one group that is wrong does not count. At least rounding.
-SampleNoise measured_noise(const CapturedStack& pictures, const Setting& s) {
+SampleNoise measured_noise(const CapturedView& pictures, const Setting& s) {
   std::vector<double> sigmas;
   for (const PatternGroup& group : s.groups)
     if (group.count > 1) sigmas.push_back(group_noise_dn(pictures, group, s.min_white_minus_black));
@@ -38,7 +38,7 @@ SampleNoise measured_noise(const CapturedStack& pictures, const Setting& s) {
   return {std::max(*middle, std::sqrt(1 / 12.0)), 0};
 }
 
-Setting setting_of(const CapturedStack& pictures, const PatternSequence& sequence,
+Setting setting_of(const CapturedView& pictures, const PatternSequence& sequence,
                    const PhaseDecodeOptions& options) {
   const double full_scale = full_scale_dn(pictures), unit = full_scale / 255;
   Setting s{
@@ -92,7 +92,7 @@ struct Decoding {
 };
 
 template <class T>
-void decode_segment(const ImageStack<T>& stack, const Setting& s, std::size_t begin, Decoding& out) {
+void decode_segment(const ImageStackView<T>& stack, const Setting& s, std::size_t begin, Decoding& out) {
   const std::size_t count = std::min(segment_pixels, stack.picture_size() - begin);
   const AxisResult u = decode_axis(s, AxisPictures<T>{stack, s.sequence, 0, begin, count});
   const AxisResult v = decode_axis(s, AxisPictures<T>{stack, s.sequence, 1, begin, count});
@@ -143,7 +143,7 @@ void validate_options(const PhaseDecodeOptions& o) {
 
 }  // namespace
 
-DecodedMap decode_phase(const CapturedStack& pictures, const PatternSequence& sequence,
+DecodedMap decode_phase(const CapturedView& pictures, const PatternSequence& sequence,
                         const PhaseDecodeOptions& options) {
   validate(sequence);
   validate_options(options);

@@ -30,7 +30,7 @@ struct PhaseDecodeOptions {
 ///
 /// Throws InputError where the number of pictures is not that of the sequence, the family is another, or an
 /// option is not finite or negative. The same bits for any number of threads.
-DecodedMap decode_phase(const CapturedStack& pictures, const PatternSequence& sequence,
+DecodedMap decode_phase(const CapturedView& pictures, const PatternSequence& sequence,
                         const PhaseDecodeOptions& options = {});
 
 }  // namespace laterna

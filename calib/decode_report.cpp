@@ -92,7 +92,7 @@ void flag_sums(const PatternSequence& sequence, DecodeReport& report) {
   }
 }
 
-void flag_repeat(const CapturedStack& pictures, const PatternSequence& sequence, DecodeReport& report) {
+void flag_repeat(const CapturedView& pictures, const PatternSequence& sequence, DecodeReport& report) {
   report.repeat = compare_repeat(pictures, sequence);
   if (!report.repeat || !has_moved(*report.repeat)) return;
   doubt(fmt::format("the rig or the scene moved between the first and the last picture: {:.2g} % of the lit "
@@ -101,7 +101,7 @@ void flag_repeat(const CapturedStack& pictures, const PatternSequence& sequence,
         report);
 }
 
-void flag_black_and_white(const CapturedStack& pictures, double contrast, DecodeReport& report) {
+void flag_black_and_white(const CapturedView& pictures, double contrast, DecodeReport& report) {
   const double outside = outside_black_and_white(pictures, contrast);
   if (outside > 0.01) {
     doubt(fmt::format("{:.0f} % of the pixels are brighter than in white, or darker than in black: white or "
@@ -140,7 +140,7 @@ const char* reject_name(Reject reason) { return names[int(reason)]; }
 namespace {
 
 // All that is told by the pictures without a repeat.
-void report_on_plain(const CapturedStack& pictures, const PatternSequence& sequence, DecodeReport& report) {
+void report_on_plain(const CapturedView& pictures, const PatternSequence& sequence, DecodeReport& report) {
   const double contrast = contrast_share * full_scale_dn(pictures);
   report.misfits = sum_misfits(pictures, pattern_groups(sequence), contrast);
   flag_sums(sequence, report);
@@ -151,8 +151,7 @@ void report_on_plain(const CapturedStack& pictures, const PatternSequence& seque
 
 }  // namespace
 
-DecodeReport report_on(const CapturedStack& pictures, const PatternSequence& sequence,
-                       const DecodedMap& map) {
+DecodeReport report_on(const CapturedView& pictures, const PatternSequence& sequence, const DecodedMap& map) {
   DecodeReport report;
   for (const Reject why : map.why.values) report.percent[int(why)] += 100.0 / double(map.why.values.size());
   report.valid_percent = report.percent[0];

@@ -35,6 +35,6 @@ struct DecodeReport {
 /// Doubts are: a dropped or exchanged picture; a response that is bent so much that it would shift places by
 /// more than 0.1 px (bent_response.h), or at all for micro_phase, which compares single pictures; pixels
 /// outside black and white; a rig or a scene that moved.
-DecodeReport report_on(const CapturedStack& pictures, const PatternSequence& sequence, const DecodedMap& map);
+DecodeReport report_on(const CapturedView& pictures, const PatternSequence& sequence, const DecodedMap& map);
 
 }  // namespace laterna

@@ -19,7 +19,7 @@ constexpr float large_chi2 = 9;
 template <class T>
 class Fitter {
  public:
-  Fitter(const ImageStack<T>& stack, const PatternGroup& group, const SampleNoise& noise,
+  Fitter(const ImageStackView<T>& stack, const PatternGroup& group, const SampleNoise& noise,
          const FringeLimits& limits, std::size_t begin, std::size_t count)
       : steps_(group.count),
         white_(stack.picture(stack.count - 2).data() + begin),
@@ -183,14 +183,14 @@ class Fitter {
 }  // namespace
 
 template <class T>
-FringeFit fit_fringe(const ImageStack<T>& stack, const PatternGroup& group, const SampleNoise& noise,
+FringeFit fit_fringe(const ImageStackView<T>& stack, const PatternGroup& group, const SampleNoise& noise,
                      const FringeLimits& limits, std::size_t begin, std::size_t count) {
   return Fitter<T>(stack, group, noise, limits, begin, count).run();
 }
 
-template FringeFit fit_fringe(const ImageStack<std::uint8_t>&, const PatternGroup&, const SampleNoise&,
+template FringeFit fit_fringe(const ImageStackView<std::uint8_t>&, const PatternGroup&, const SampleNoise&,
                               const FringeLimits&, std::size_t, std::size_t);
-template FringeFit fit_fringe(const ImageStack<std::uint16_t>&, const PatternGroup&, const SampleNoise&,
+template FringeFit fit_fringe(const ImageStackView<std::uint16_t>&, const PatternGroup&, const SampleNoise&,
                               const FringeLimits&, std::size_t, std::size_t);
 
 }  // namespace laterna

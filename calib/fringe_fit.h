@@ -6,7 +6,7 @@
 #pragma once
 
 #include "calib/decoded_map.h"
-#include "sim/image.h"
+#include "sim/image_view.h"
 #include "sim/pattern_sequence.h"
 
 #include <cstddef>
@@ -40,7 +40,12 @@ struct FringeFit {
 /// that factor. So a dropped picture or a bent response shows in sigma, for N = 3 too. A pixel whose white is
 /// at full scale lacks the sum's degree of freedom.
 template <class T>
-FringeFit fit_fringe(const ImageStack<T>& stack, const PatternGroup& group, const SampleNoise& noise,
+FringeFit fit_fringe(const ImageStackView<T>& stack, const PatternGroup& group, const SampleNoise& noise,
                      const FringeLimits& limits, std::size_t begin, std::size_t count);
+template <class T>
+FringeFit fit_fringe(const ImageStack<T>& stack, const PatternGroup& group, const SampleNoise& noise,
+                     const FringeLimits& limits, std::size_t begin, std::size_t count) {
+  return fit_fringe(ImageStackView<T>(stack), group, noise, limits, begin, count);
+}
 
 }  // namespace laterna

@@ -37,12 +37,12 @@ struct Refined {
 
 template <class T>
 struct Axis {
-  const ImageStack<T>& stack;
+  ImageStackView<T> stack;
   std::vector<std::uint32_t> words;  ///< of each column or row
   std::vector<int> picture_of_bit;   ///< the pattern; its inverse follows
   double noise_dn;
 
-  Axis(const ImageStack<T>& pictures, const PatternSequence& sequence, int axis, double noise)
+  Axis(const ImageStackView<T>& pictures, const PatternSequence& sequence, int axis, double noise)
       : stack(pictures), picture_of_bit(32, 0), noise_dn(noise) {
     for (int x = 0; x < sequence.projector_size[axis]; ++x) words.push_back(code_word(sequence, axis, x));
     for (const PatternGroup& group : pattern_groups(sequence))
@@ -120,7 +120,7 @@ Refined refine_axis(const Axis<T>& axis, const DecodedMap& map, const std::vecto
 
 }  // namespace
 
-void refine_at_crossings(const CapturedStack& pictures, const PatternSequence& sequence, DecodedMap& map) {
+void refine_at_crossings(const CapturedView& pictures, const PatternSequence& sequence, DecodedMap& map) {
   const double noise = sum_noise_dn(pictures, pattern_groups(sequence), 0);
   std::visit(
       [&](const auto& stack) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "calib/decoded_map.h"
+#include "sim/image_view.h"
 #include "sim/pattern_sequence.h"
 
 namespace laterna {
@@ -18,6 +19,6 @@ namespace laterna {
 ///
 /// What the camera does not resolve (steps of two and more) stays a whole number with sigma 1/√12, so it pays
 /// where a projector pixel covers more than one camera pixel. v likewise.
-void refine_at_crossings(const CapturedStack& pictures, const PatternSequence& sequence, DecodedMap& map);
+void refine_at_crossings(const CapturedView& pictures, const PatternSequence& sequence, DecodedMap& map);
 
 }  // namespace laterna

@@ -27,7 +27,7 @@ void stripes_of(const WordCode& code, const std::uint8_t* high, const std::uint8
 }  // namespace
 
 template <class T>
-PairPictures<T>::PairPictures(const ImageStack<T>& stack, const PatternSequence& sequence, int axis)
+PairPictures<T>::PairPictures(const ImageStackView<T>& stack, const PatternSequence& sequence, int axis)
     : code(word_code(sequence, axis)) {
   for (const PatternGroup& group : pattern_groups(sequence)) {
     if (group.axis != axis || group.kind != PatternGroup::Kind::pair) continue;

@@ -1,7 +1,7 @@
 // The pairs of an axis to stripes, for the decoders of binary codes.
 #pragma once
 
-#include "sim/image.h"
+#include "sim/image_view.h"
 #include "sim/pattern_sequence.h"
 
 #include <cstdint>
@@ -15,7 +15,7 @@ struct PairPictures {
   std::vector<const T*> pattern, inverse;  ///< the most significant bit first
   WordCode code;
 
-  PairPictures(const ImageStack<T>& stack, const PatternSequence& sequence, int axis);
+  PairPictures(const ImageStackView<T>& stack, const PatternSequence& sequence, int axis);
 
   /// For `count` pixels from `begin` on: stripe = what their word means (it may be ≥ code.stripes), weakest =
   /// the least of what it held and every |pattern - inverse|.

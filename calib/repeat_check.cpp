@@ -16,7 +16,7 @@ namespace {
 constexpr double contrast_share = 40 / 255.0, lamp_share = 0.03, noise_sigmas = 8, moved_share = 1e-3;
 
 template <class T>
-RepeatCheck compare(const ImageStack<T>& stack, int white, double min_contrast, double sigma_dn) {
+RepeatCheck compare(const ImageStackView<T>& stack, int white, double min_contrast, double sigma_dn) {
   RepeatCheck check;
   std::size_t changed = 0;
   const auto first = stack.picture(0), last = stack.picture(stack.count - 1);
@@ -39,26 +39,24 @@ PatternSequence without_repeat(PatternSequence sequence) {
   return sequence;
 }
 
-CapturedStack without_repeat(const CapturedStack& pictures, const PatternSequence& sequence) {
+CapturedView without_repeat(const CapturedView& pictures, const PatternSequence& sequence) {
   return std::visit(
-      [&](const auto& stack) -> CapturedStack {
+      [&](const auto& stack) -> CapturedView {
         const int expected = picture_count(sequence);
         if (stack.count != expected)
           throw InputError(
               fmt::format("patterns: {} pictures, expected {}{}", stack.count, expected,
                           sequence.parameters.repeat_first ? ", the first one again at the end" : ""));
         auto kept = stack;
-        if (!sequence.parameters.repeat_first) return kept;
-        kept.values.resize(kept.values.size() - kept.picture_size());
-        --kept.count;
+        kept.count -= sequence.parameters.repeat_first;
         return kept;
       },
       pictures);
 }
 
-std::optional<RepeatCheck> compare_repeat(const CapturedStack& pictures, const PatternSequence& sequence) {
+std::optional<RepeatCheck> compare_repeat(const CapturedView& pictures, const PatternSequence& sequence) {
   if (!sequence.parameters.repeat_first) return {};
-  const CapturedStack plain = without_repeat(pictures, sequence);
+  const CapturedView plain = without_repeat(pictures, sequence);
   const double least = contrast_share * full_scale_dn(plain);
   const double sigma =
       std::max(sum_noise_dn(plain, pattern_groups(without_repeat(sequence)), least), std::sqrt(1 / 12.0));

@@ -2,7 +2,7 @@
 // within the noise.
 #pragma once
 
-#include "sim/image.h"
+#include "sim/image_view.h"
 #include "sim/pattern_sequence.h"
 
 #include <optional>
@@ -10,10 +10,10 @@
 
 namespace laterna {
 
-/// The same sequence, and the same pictures, without the repeated one. Throws InputError where the number of
-/// pictures is not picture_count(sequence).
+/// The same sequence, and the same pictures where they are, without the repeated one. Throws InputError where
+/// the number of pictures is not picture_count(sequence).
 PatternSequence without_repeat(PatternSequence sequence);
-CapturedStack without_repeat(const CapturedStack& pictures, const PatternSequence& sequence);
+CapturedView without_repeat(const CapturedView& pictures, const PatternSequence& sequence);
 
 struct RepeatCheck {
   std::size_t lit = 0;       ///< pixels looked at: white - black is above 40/255 of the full scale
@@ -23,7 +23,7 @@ struct RepeatCheck {
 /// A pixel has changed where |last - first| > 8·sqrt(2)·sigma + 0.03·(white - black): noise of `sigma` as
 /// sum_noise_dn() measures it, at most twice as bright as typical, and a lamp that wavers by 3 %. Nothing for
 /// a sequence without a repeat.
-std::optional<RepeatCheck> compare_repeat(const CapturedStack& pictures, const PatternSequence& sequence);
+std::optional<RepeatCheck> compare_repeat(const CapturedView& pictures, const PatternSequence& sequence);
 
 /// More than one pixel in a thousand: a quarter of a pixel along the edge of the coarsest stripe is more.
 bool has_moved(const RepeatCheck& check);

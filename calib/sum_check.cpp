@@ -14,7 +14,7 @@ std::size_t grid_step(std::size_t pixels) { return std::max<std::size_t>(1, pixe
 /// Where white is at full scale a pair still tells: one picture is at full scale too, the other black. At a
 /// stripe's edge, which is neither, the sum is wrong for no fault of the pictures.
 template <class T>
-bool is_clipped_edge(const ImageStack<T>& stack, const PatternGroup& pair, std::size_t i, double black,
+bool is_clipped_edge(const ImageStackView<T>& stack, const PatternGroup& pair, std::size_t i, double black,
                      double contrast, double full_scale) {
   for (int j = 0; j < pair.count; ++j) {
     const double value = stack.picture(pair.first + j)[i];
@@ -25,7 +25,7 @@ bool is_clipped_edge(const ImageStack<T>& stack, const PatternGroup& pair, std::
 
 /// Calls body(group, rest, white - black) for the lit pixels of a regular grid.
 template <class T, class Body>
-void for_rests(const ImageStack<T>& stack, const std::vector<PatternGroup>& groups,
+void for_rests(const ImageStackView<T>& stack, const std::vector<PatternGroup>& groups,
                double min_white_minus_black, double full_scale, const Body& body) {
   const std::span<const T> white = stack.picture(stack.count - 2), black = stack.picture(stack.count - 1);
   const std::size_t step = grid_step(stack.picture_size());
@@ -47,8 +47,8 @@ void for_rests(const ImageStack<T>& stack, const std::vector<PatternGroup>& grou
 
 }  // namespace
 
-double full_scale_dn(const CapturedStack& pictures) {
-  const auto* wide = std::get_if<ImageStack<std::uint16_t>>(&pictures);
+double full_scale_dn(const CapturedView& pictures) {
+  const auto* wide = std::get_if<ImageStackView<std::uint16_t>>(&pictures);
   if (!wide) return 255;
   const std::span<const std::uint16_t> white = wide->picture(wide->count - 2);
   const int bits = std::bit_width(*std::max_element(white.begin(), white.end()));
@@ -58,7 +58,7 @@ double full_scale_dn(const CapturedStack& pictures) {
 namespace {
 
 /// |rest|/sqrt(n + n²/2) of every group and pixel of the grid: each has the deviation of one sample.
-std::vector<double> sample_rests(const CapturedStack& pictures, const std::vector<PatternGroup>& groups,
+std::vector<double> sample_rests(const CapturedView& pictures, const std::vector<PatternGroup>& groups,
                                  double min_white_minus_black) {
   std::vector<double> rests;
   std::visit(
@@ -81,14 +81,13 @@ double sigma_of_median(std::vector<double>& rests) {
 
 }  // namespace
 
-double sum_noise_dn(const CapturedStack& pictures, const std::vector<PatternGroup>& groups,
+double sum_noise_dn(const CapturedView& pictures, const std::vector<PatternGroup>& groups,
                     double min_white_minus_black) {
   std::vector<double> rests = sample_rests(pictures, groups, min_white_minus_black);
   return sigma_of_median(rests);
 }
 
-double group_noise_dn(const CapturedStack& pictures, const PatternGroup& group,
-                      double min_white_minus_black) {
+double group_noise_dn(const CapturedView& pictures, const PatternGroup& group, double min_white_minus_black) {
   std::vector<double> rests = sample_rests(pictures, {group}, min_white_minus_black);
   const double most = 3 * sigma_of_median(rests);
   double sum = 0, count = 0;
@@ -97,7 +96,7 @@ double group_noise_dn(const CapturedStack& pictures, const PatternGroup& group,
   return count > 0 ? std::sqrt(sum / count / 0.9733) : 0;  // the variance of a normal deviate within ±3
 }
 
-std::vector<GroupMisfit> sum_misfits(const CapturedStack& pictures, const std::vector<PatternGroup>& groups,
+std::vector<GroupMisfit> sum_misfits(const CapturedView& pictures, const std::vector<PatternGroup>& groups,
                                      double min_white_minus_black) {
   std::vector<double> sums(groups.size(), 0);
   std::vector<std::size_t> counts(groups.size(), 0);
@@ -117,7 +116,7 @@ std::vector<GroupMisfit> sum_misfits(const CapturedStack& pictures, const std::v
   return misfits;
 }
 
-double outside_black_and_white(const CapturedStack& pictures, double min_white_minus_black) {
+double outside_black_and_white(const CapturedView& pictures, double min_white_minus_black) {
   std::size_t outside = 0, all = 0;
   std::visit(
       [&](const auto& stack) {

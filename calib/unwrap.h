@@ -3,7 +3,7 @@
 
 #include "calib/fringe_fit.h"
 #include "calib/fringe_kernel.h"
-#include "sim/image.h"
+#include "sim/image_view.h"
 #include "sim/pattern_sequence.h"
 
 #include <cstdint>
@@ -29,7 +29,7 @@ struct Places {
 /// One axis of a stack, from pixel `begin` on.
 template <class T>
 struct AxisPictures {
-  const ImageStack<T>& stack;
+  ImageStackView<T> stack;
   const PatternSequence& sequence;
   int axis;
   std::size_t begin, count;

@@ -1,4 +1,5 @@
-# cmake -DBUILD=... -DSOURCE=... -DSCRATCH=... -P run.cmake: installs, configures, builds and runs the outside project.
+# cmake -DBUILD=... -DSOURCE=... -DSCRATCH=... -DPYTHON=... -P run.cmake: installs, configures, builds and runs the outside project;
+# with PYTHON, the outside script too.
 file(REMOVE_RECURSE ${SCRATCH})
 foreach(step IN ITEMS
     "${CMAKE_COMMAND};--install;${BUILD};--prefix;${SCRATCH}/prefix"
@@ -11,3 +12,10 @@ foreach(step IN ITEMS
     message(FATAL_ERROR "${step}: ${failed}\n${text}")
   endif()
 endforeach()
+if(PYTHON)
+  execute_process(COMMAND ${CMAKE_COMMAND} -E env PYTHONPATH=${SCRATCH}/prefix/lib/python3/dist-packages ${PYTHON} ${SOURCE}/outside.py
+                          ${SCRATCH}/prefix RESULT_VARIABLE failed OUTPUT_VARIABLE text ERROR_VARIABLE text)
+  if(failed)
+    message(FATAL_ERROR "outside.py: ${failed}\n${text}")
+  endif()
+endif()

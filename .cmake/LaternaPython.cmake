@@ -1,0 +1,20 @@
+# Whether the Python module is built: sets `python_module`, and Python and pybind11 where it is. The module is for the system's
+# Python, also where another one comes first on the path.
+set(python_module OFF)
+set(LATERNA_PYTHON_EXECUTABLE /usr/bin/python3 CACHE FILEPATH "The Python that the module is for")
+if(NOT LATERNA_PYTHON)
+  return()
+elseif(LATERNA_SANITIZE)
+  message(STATUS "No Python module: a sanitizer's runtime would have to stand in the interpreter")
+  return()
+endif()
+set(Python_EXECUTABLE ${LATERNA_PYTHON_EXECUTABLE})
+find_package(Python 3.9 COMPONENTS Interpreter Development.Module NumPy QUIET)
+find_package(pybind11 2.10 CONFIG QUIET)
+if(NOT Python_FOUND OR NOT pybind11_FOUND)
+  message(STATUS "No Python module: ${LATERNA_PYTHON_EXECUTABLE} with its headers and NumPy, or pybind11, is missing "
+                 "(Debian: python3-dev python3-numpy pybind11-dev)")
+  return()
+endif()
+message(STATUS "Python module for ${Python_EXECUTABLE} ${Python_VERSION}, pybind11 ${pybind11_VERSION}")
+set(python_module ON)
