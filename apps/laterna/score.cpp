@@ -16,19 +16,11 @@ struct ScoreWords {
   ScoreOptions options;
 };
 
-// What the result's file may leave unsaid is what the truth says.
-RigReadOptions unsaid(const Scene& scene) {
-  RigReadOptions options;
-  if (!scene.cameras.empty()) options.camera_size = scene.cameras[0].device.intrinsics.size;
-  if (!scene.projectors.empty()) options.projector_size = scene.projectors[0].device.intrinsics.size;
-  return options;
-}
-
 void run_score(ScoreWords words, Common& common) {
   if (!words.align.empty()) words.options.alignment = alignment_of(words.align);
   words.options.seed = common.seed;
   const ScoreTruth truth = read_score_truth(words.truth);
-  const ScoreResult result = read_score_result(words.result, unsaid(truth.scene));
+  const ScoreResult result = read_score_result(words.result, unsaid_by(truth.scene));
   const auto scores =
       score(truth, result, words.options, [&](const std::string& line) { progress(common, line); });
   if (common.json)

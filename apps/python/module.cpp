@@ -19,4 +19,5 @@ PYBIND11_MODULE(_laterna, module) {
   laterna::python::bind_calibrate(module);
   laterna::python::bind_boards(module);
   laterna::python::bind_verify(module);
+  laterna::python::bind_score(module);
 }

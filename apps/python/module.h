@@ -1,4 +1,4 @@
-// The parts of the module, one for each noun of the pipeline. A part for `score` goes beside them.
+// The parts of the module, one for each noun of the pipeline.
 #pragma once
 
 #include "apps/lab/simulation.h"
@@ -53,5 +53,6 @@ void bind_decode(pybind11::module_& module);
 void bind_calibrate(pybind11::module_& module);
 void bind_boards(pybind11::module_& module);
 void bind_verify(pybind11::module_& module);
+void bind_score(pybind11::module_& module);
 
 }  // namespace laterna::python

@@ -183,6 +183,13 @@ ProjectorScore score_one(const ScoreTruth& truth, const Traced& traced, const Pr
 
 }  // namespace
 
+RigReadOptions unsaid_by(const Scene& truth) {
+  RigReadOptions options;
+  if (!truth.cameras.empty()) options.camera_size = truth.cameras[0].device.intrinsics.size;
+  if (!truth.projectors.empty()) options.projector_size = truth.projectors[0].device.intrinsics.size;
+  return options;
+}
+
 ScoreTruth read_score_truth(const std::filesystem::path& path) {
   if (!std::filesystem::is_directory(path)) return {load_scene(path)};
   ScoreTruth truth{{}, path, read_manifest(path)};

@@ -27,6 +27,9 @@ struct ScoreTruth {
 /// A scene file, or a capture folder with its scene and pictures. Throws InputError for anything else.
 ScoreTruth read_score_truth(const std::filesystem::path& path);
 
+/// What a result's file may leave unsaid is what the truth says: the sizes of the first camera and projector.
+RigReadOptions unsaid_by(const Scene& truth);
+
 struct ScoreOptions {
   /// None: `world` where the result has a camera (a calibrator's world is its own, most often the camera),
   /// else `none`: Laterna's own estimates stand in the scene's world.

@@ -22,11 +22,11 @@ Bad input raises InputError, a ValueError, with one sentence. Sound input that c
 from ._laterna import (
     BoardCalibration, Capture, Decoded, Device, ErrorSummary, Estimate, InputError, Mesh, Outcome, Patterns, Scene, Verification,
     View, __version__, calibrate, calibrate_boards, calibrate_points, capture, decode, load, new_scene, parse, roundtrip,
-    set_thread_count, trace, verify)
+    score, set_thread_count, trace, verify)
 
 __all__ = [
     "BoardCalibration", "Capture", "Decoded", "Device", "ErrorSummary", "Estimate", "InputError", "Mesh", "Outcome", "Patterns",
     "Scene", "Verification", "View", "__version__", "calibrate", "calibrate_boards", "calibrate_points", "capture", "decode", "load",
-    "new_scene", "parse", "roundtrip", "set_thread_count", "trace", "verify"]
+    "new_scene", "parse", "roundtrip", "score", "set_thread_count", "trace", "verify"]
 
 InputError.__module__ = "laterna"
