@@ -95,6 +95,7 @@ void add(DatasetTotals& totals, const Json& sample) {
 void complete(const DatasetFolder& folder, const DatasetSpec& spec, const DatasetOptions& options,
               DatasetOutcome& outcome) {
   const FileLock lock(folder.root / ".lock", FileLock::Wait::yes);
+  remove_partials(folder.root);
   remove_partials(folder.root / "tars");
   std::string checksums;
   for (std::uint64_t block = 0; block < folder.blocks(); ++block) {
