@@ -39,7 +39,7 @@ inline void expect(bool holds, const char* what) {
 
 /// A file in memory with these bytes, for readers that take a path; one for each process and ending.
 inline std::filesystem::path file_with(std::string_view bytes, const std::string& ending) {
-  const std::filesystem::path path = "/dev/shm/laterna-fuzz-" + std::to_string(::getpid()) + ending;
+  std::filesystem::path path = "/dev/shm/laterna-fuzz-" + std::to_string(::getpid()) + ending;
   std::FILE* file = std::fopen(path.c_str(), "wb");
   expect(file != nullptr, "a file in /dev/shm can be written");
   expect(std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size(), "all of it is written");

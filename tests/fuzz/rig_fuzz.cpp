@@ -11,7 +11,7 @@ namespace {
 using namespace laterna;
 
 std::filesystem::path colmap_folder(std::string_view bytes) {
-  const std::filesystem::path folder = "/dev/shm/laterna-fuzz-colmap-" + std::to_string(::getpid());
+  std::filesystem::path folder = "/dev/shm/laterna-fuzz-colmap-" + std::to_string(::getpid());
   std::filesystem::create_directories(folder);
   const std::size_t middle = std::min(bytes.find('\0'), bytes.size());
   const auto put = [&](const char* name, std::string_view text) {

@@ -251,6 +251,9 @@ TEST(MeshFile, ACrashOfAssimpIsASentence) {
 }
 
 TEST(MeshFile, AskingForAllMemoryIsASentence) {
+#ifdef __SANITIZE_ADDRESS__
+  GTEST_SKIP() << "skipped: AddressSanitizer ends the reader before its limit does";
+#endif
   const ScratchFolder folder;
   const auto path = write_text(folder / "a.off", "OFF\n4000000000 1 0\n0 0 3\n");
   EXPECT_THAT(refusal(path), HasSubstr("Assimp's .off reader asks for more memory than"));
