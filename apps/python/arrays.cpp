@@ -49,7 +49,7 @@ py::array expect(const py::object& argument, const Expected& expected) {
     throw InputError(fmt::format("{}: found a {}, expected a NumPy array of {}, {}", expected.name,
                                  std::string(py::str(py::type::of(argument).attr("__name__"))), dtypes,
                                  expected.shape_words));
-  const auto array = py::reinterpret_borrow<py::array>(argument);
+  auto array = py::reinterpret_borrow<py::array>(argument);
   const std::string dtype = dtype_text(array);
   if (std::find(expected.dtypes.begin(), expected.dtypes.end(), dtype) == expected.dtypes.end())
     throw InputError(fmt::format("{}: dtype {}, expected {}", expected.name, dtype, dtypes));

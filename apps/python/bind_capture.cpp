@@ -25,7 +25,7 @@ PatternKind kind_of(const std::string& name) {
 PatternSequence make_patterns(std::array<int, 2> size, const std::string& kind, int steps, double pitch_px,
                               const std::vector<double>& pitches_px, int xor_stripe_px, int square_px,
                               bool repeat_first) {
-  const PatternSequence sequence{
+  PatternSequence sequence{
       {kind_of(kind), steps, pitch_px, pitches_px, xor_stripe_px, square_px, repeat_first},
       {size[0], size[1]}};
   validate(sequence);
