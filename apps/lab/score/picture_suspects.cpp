@@ -150,9 +150,10 @@ std::optional<Suspect> bent_response(const Shares& shares, const PatternSequence
   if (fringes.empty()) return std::nullopt;
   const double straight = fringe_misfit(shares, fringes, 1);
   double best_gamma = 1, least = straight;
-  for (double log_gamma = -1.2; log_gamma < 1.21; log_gamma += 0.05) {
-    const double misfit = fringe_misfit(shares, fringes, std::exp(log_gamma));
-    if (misfit < least) least = misfit, best_gamma = std::exp(log_gamma);
+  for (int step = -24; step <= 24; ++step) {
+    const double gamma = std::exp(0.05 * step);  // 0.30 to 3.3
+    const double misfit = fringe_misfit(shares, fringes, gamma);
+    if (misfit < least) least = misfit, best_gamma = gamma;
   }
   const double explains = 1 - least / straight;
   if ((best_gamma > 0.9 && best_gamma < 1.1) || !(explains > 0.5)) return std::nullopt;
