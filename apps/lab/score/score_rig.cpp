@@ -47,7 +47,7 @@ Device device_of(const Json& json) {
   const Intrinsics& k = device.intrinsics;
   if (k.size.x < 1 || k.size.y < 1 || !(k.fx != 0 && k.fy != 0) || !std::isfinite(k.fx + k.fy + k.cx + k.cy))
     throw InputError(fmt::format("\"{}\": unusable size, focal lengths or centre", device.name));
-  LensProjection(device.intrinsics, device.lens);  // throws for an unknown model
+  [[maybe_unused]] const LensProjection throws_for_an_unknown_model(device.intrinsics, device.lens);
   return device;
 }
 
