@@ -1,19 +1,20 @@
 #include "render/classic/shadow_map.h"
 
+#include "render/projective_lookup.h"
 #include "render/surface.h"
+#include "sim/resample.h"
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace laterna {
 
 namespace {
 
-/// The same view over another number of pixels: u + 0.5 grows in proportion.
+/// The same view over another number of pixels, each way by itself.
 Intrinsics over_pixels(const Intrinsics& k, glm::ivec2 size) {
   const glm::dvec2 scale = glm::dvec2(size) / glm::dvec2(k.size);
-  return {size, k.fx * scale.x, k.fy * scale.y, (k.cx + 0.5) * scale.x - 0.5, (k.cy + 0.5) * scale.y - 0.5};
+  return {size, k.fx * scale.x, k.fy * scale.y, resampled_place_px(k.cx, scale.x),
+          resampled_place_px(k.cy, scale.y)};
 }
 
 }  // namespace
@@ -31,10 +32,9 @@ ShadowMap make_shadow_map(const RayScene& rays, const Scene& scene, const Projec
 }
 
 bool lit_by(const ShadowMap& map, const glm::dvec2& pixel, glm::ivec2 size, double depth_m, double bias_m) {
-  const auto texel = [](double at, int pixels, int texels) {
-    return std::clamp(int(std::floor((at + 0.5) / pixels * texels)), 0, texels - 1);
-  };
-  return map(texel(pixel.x, size.x, map.width), texel(pixel.y, size.y, map.height)) >= depth_m - bias_m;
+  const glm::dvec2 st = texture_from_pixel(pixel, size);
+  const glm::dvec2 at = pixel_from_texture({st, 0, 1}, {map.width, map.height});
+  return map(nearest_texel(at.x, map.width), nearest_texel(at.y, map.height)) >= depth_m - bias_m;
 }
 
 }  // namespace laterna

@@ -32,7 +32,7 @@ void limit(__rlimit_resource what, rlim_t most) {
   ::setrlimit(what, &now);
 }
 
-/// Seconds and memory by the size of the file: ten times what the slowest of Assimp's own test models takes.
+/// Seconds and memory by the size of the file (sim/mesh_file.h).
 void limit_by_size(std::size_t bytes) {
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_CPU, 20 + bytes / 100'000);

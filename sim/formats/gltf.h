@@ -10,7 +10,7 @@
 // forward: device_from_world = diag(1, -1, -1)·inverse(world_from_node). The world's axes stay as they are.
 // Metres, as here. yfov = 2·atan(H / (2·fy)), aspectRatio = (W/fx) / (H/fy): the centre is the picture's
 // middle, cx = (W-1)/2, cy = (H-1)/2, since glTF holds no principal point; our block, which other readers
-// pass over, does. https://registry.khronos.org/glTF/specs/2.0/glTF-2.0.html#cameras
+// pass over, does. Source: glTF 2.0 specification, 3.10, Cameras.
 #pragma once
 
 #include "sim/formats/parts.h"

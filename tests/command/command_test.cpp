@@ -1,6 +1,6 @@
 // The command as a person would call it.
-#include "sim/text_file.h"
 #include "tests/command/run_command.h"
+#include "tests/command/small_scene.h"
 #include "tests/testing.h"
 
 #include <fmt/format.h>
@@ -17,30 +17,8 @@ using ::testing::HasSubstr;
 using testing::laterna;
 using testing::listing;
 using testing::ScratchFolder;
+using testing::small;
 using testing::write_text;
-
-// A scene that is quick to render.
-const std::string small = R"(
-[[mesh]]
-shape = "relief"
-shape_size = [1.6, 1.0, 0.7]
-seed = 7
-[[projector]]
-name = "left"
-size = [320, 200]
-throw_ratio = 1.2
-lens_shift = [0.0, 0.1]
-position = [0.35, -0.1, 2.1]
-look_at = [0, 0, 0]
-up = [0, 1, 0]
-[[camera]]
-name = "cam"
-size = [400, 250]
-fov_x_deg = 42
-position = [-0.35, 0.15, 2.0]
-look_at = [0, 0, 0]
-up = [0.1, 1, 0]
-)";
 
 TEST(Command, FiveMinutesForANewUser) {
   const ScratchFolder scratch;
@@ -341,7 +319,7 @@ TEST(Command, TheCommittedReferenceIsTheGeneratedOne) {
   const ScratchFolder scratch;
   const auto page = laterna("--command-reference", scratch.path());
   EXPECT_EQ(page.exit_code, 0);
-  EXPECT_TRUE(read_text(laterna::testing::data_folder() / "command-reference.md", 1 << 20) == page.out)
+  EXPECT_TRUE(testing::read_text(laterna::testing::data_folder() / "command-reference.md") == page.out)
       << "regenerate it: laterna --command-reference > data/command-reference.md";
 }
 

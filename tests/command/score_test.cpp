@@ -1,5 +1,6 @@
 // `laterna score` as a person would call it.
 #include "tests/command/run_command.h"
+#include "tests/command/small_scene.h"
 #include "tests/testing.h"
 
 #include <fmt/format.h>
@@ -13,29 +14,8 @@ using nlohmann::json;
 using ::testing::HasSubstr;
 using testing::laterna;
 using testing::ScratchFolder;
+using testing::small;
 using testing::write_text;
-
-const std::string relief = R"(
-[[mesh]]
-shape = "relief"
-shape_size = [1.6, 1.0, 0.7]
-seed = 7
-[[projector]]
-name = "left"
-size = [320, 200]
-throw_ratio = 1.2
-lens_shift = [0.0, 0.1]
-position = [0.35, -0.1, 2.1]
-look_at = [0, 0, 0]
-up = [0, 1, 0]
-[[camera]]
-name = "eye"
-size = [400, 250]
-fov_x_deg = 42
-position = [-0.35, 0.15, 2.0]
-look_at = [0, 0, 0]
-up = [0.1, 1, 0]
-)";
 
 json score_of(const std::string& words, const ScratchFolder& scratch, int exit_code) {
   const auto run = laterna("score " + words + " --json", scratch.path());
@@ -45,10 +25,10 @@ json score_of(const std::string& words, const ScratchFolder& scratch, int exit_c
 
 TEST(ScoreCommand, KeepsItsContract) {
   const ScratchFolder scratch;
-  write_text(scratch / "relief.toml", relief);
-  ASSERT_EQ(laterna("capture relief.toml -o capture", scratch.path()).exit_code, 0);
+  write_text(scratch / "small.toml", small);
+  ASSERT_EQ(laterna("capture small.toml -o capture", scratch.path()).exit_code, 0);
   ASSERT_EQ(laterna("calibrate capture -o left.json", scratch.path()).exit_code, 0);
-  for (const char* truth : {"relief.toml", "capture"}) {
+  for (const char* truth : {"small.toml", "capture"}) {
     const json right = score_of(fmt::format("{} left.json", truth), scratch, 0);
     EXPECT_EQ(right["status"], "ok");
     for (const char* key : {"surface_error_px", "volume_error_px", "surface_error_mm"})
@@ -59,20 +39,20 @@ TEST(ScoreCommand, KeepsItsContract) {
   wrong["projectors"][0]["cx"] = wrong["projectors"][0]["cx"].get<double>() + 0.5;
   wrong["projectors"][0]["cy"] = wrong["projectors"][0]["cy"].get<double>() + 0.5;
   write_text(scratch / "wrong.json", wrong.dump());
-  const json scored = score_of("relief.toml wrong.json", scratch, 4);
+  const json scored = score_of("small.toml wrong.json", scratch, 4);
   EXPECT_EQ(scored["status"], "weak");
   EXPECT_EQ(scored["suspects"][0]["name"], "half_pixel");
   EXPECT_GT(scored["suspects"][0]["explains"].get<double>(), 0.9);
-  const auto words = laterna("score relief.toml wrong.json", scratch.path());
+  const auto words = laterna("score small.toml wrong.json", scratch.path());
   EXPECT_THAT(words.out, HasSubstr("move the principal point by half a pixel"));
 }
 
 TEST(ScoreCommand, MissingAndForeignFilesAreOneSentence) {
   const ScratchFolder scratch;
-  write_text(scratch / "relief.toml", relief);
+  write_text(scratch / "small.toml", small);
   write_text(scratch / "empty.json", "{}");
-  for (const char* words : {"score nowhere.toml empty.json", "score relief.toml nowhere.json",
-                            "score relief.toml empty.json", "score relief.toml empty.json --align up"}) {
+  for (const char* words : {"score nowhere.toml empty.json", "score small.toml nowhere.json",
+                            "score small.toml empty.json", "score small.toml empty.json --align up"}) {
     const auto run = laterna(words, scratch.path());
     EXPECT_EQ(run.exit_code, 2) << words;
     EXPECT_EQ(run.out, "");
@@ -80,17 +60,17 @@ TEST(ScoreCommand, MissingAndForeignFilesAreOneSentence) {
   write_text(
       scratch / "refused.json",
       R"({"format": "laterna-estimate", "version": 1, "projectors": [{"name": "left", "status": "refused"}]})");
-  const auto refused = laterna("score relief.toml refused.json --json", scratch.path());
+  const auto refused = laterna("score small.toml refused.json --json", scratch.path());
   EXPECT_EQ(refused.exit_code, 3);
   EXPECT_EQ(json::parse(refused.out)["status"], "refused");
 }
 
 TEST(ScoreCommand, APictureThatIsMissingIsADroppedFrame) {
   const ScratchFolder scratch;
-  write_text(scratch / "relief.toml", relief);
-  ASSERT_EQ(laterna("capture relief.toml -o capture", scratch.path()).exit_code, 0);
+  write_text(scratch / "small.toml", small);
+  ASSERT_EQ(laterna("capture small.toml -o capture", scratch.path()).exit_code, 0);
   ASSERT_EQ(laterna("calibrate capture -o left.json", scratch.path()).exit_code, 0);
-  std::filesystem::remove(scratch.path() / "capture/eye/left/07.png");
+  std::filesystem::remove(scratch.path() / "capture/cam/left/07.png");
   const json scored = score_of("capture left.json", scratch, 0);  // the calibration itself is right
   EXPECT_EQ(scored["suspects"][0]["name"], "dropped_frame");
 }
