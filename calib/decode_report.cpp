@@ -113,6 +113,34 @@ void flag_black_and_white(const CapturedView& pictures, double contrast, DecodeR
     report.flags.push_back("no pixel is lit: white is nowhere brighter than black");
 }
 
+void flag_steps(const PatternSequence& sequence, const DecodedMap& map, DecodeReport& report) {
+  if (sequence.parameters.kind != PatternKind::gray) return;
+  report.steps = code_steps(map, sequence.projector_size);
+  if (!report.steps) return;
+  const CodeSteps& s = *report.steps;
+  doubt(
+      fmt::format(
+          "the rig or the scene moved between the pictures of {} bit {} and those of bit {}: one side of the "
+          "edges of the coarser code is read {:.0f} % too often, the other too rarely, {:.0f} standard "
+          "deviations "
+          "from chance",
+          s.rows ? "row" : "column", s.bit, s.bit - 1, 100 * std::abs(s.asymmetry), std::abs(s.deviations)),
+      report);
+}
+
+void flag_places(const CapturedView& pictures, const PatternSequence& sequence, const DecodedMap& map,
+                 DecodeReport& report) {
+  report.places = group_places(pictures, sequence, map);
+  const auto apart = farthest_apart(report.places);
+  if (!apart) return;
+  doubt(fmt::format("{} show places {:.2g} px from where {} show them: the rig or the scene moved between "
+                    "them, or surfaces light each other",
+                    group_name(sequence, apart->first.group),
+                    std::abs(apart->first.mean_px - apart->second.mean_px),
+                    group_name(sequence, apart->second.group)),
+        report);
+}
+
 void flag_shares(DecodeReport& report) {
   const double lit = 100 - report.percent[int(Reject::dim)];
   for (int reason = int(Reject::saturated); reason < reject_reasons; ++reason) {
@@ -140,11 +168,14 @@ const char* reject_name(Reject reason) { return names[int(reason)]; }
 namespace {
 
 // All that is told by the pictures without a repeat.
-void report_on_plain(const CapturedView& pictures, const PatternSequence& sequence, DecodeReport& report) {
+void report_on_plain(const CapturedView& pictures, const PatternSequence& sequence, const DecodedMap& map,
+                     DecodeReport& report) {
   const double contrast = contrast_share * full_scale_dn(pictures);
   report.misfits = sum_misfits(pictures, pattern_groups(sequence), contrast);
   flag_sums(sequence, report);
   flag_black_and_white(pictures, contrast, report);
+  flag_steps(sequence, map, report);
+  flag_places(pictures, sequence, map, report);
   flag_orientation(report);
   flag_shares(report);
 }
@@ -158,9 +189,9 @@ DecodeReport report_on(const CapturedView& pictures, const PatternSequence& sequ
   report.orientation = orientation_of(map);
   if (!is_coded(sequence.parameters.kind)) return report;
   if (!sequence.parameters.repeat_first) {
-    report_on_plain(pictures, sequence, report);
+    report_on_plain(pictures, sequence, map, report);
   } else {
-    report_on_plain(without_repeat(pictures, sequence), without_repeat(sequence), report);
+    report_on_plain(without_repeat(pictures, sequence), without_repeat(sequence), map, report);
     flag_repeat(pictures, sequence, report);
   }
   return report;
