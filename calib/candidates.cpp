@@ -139,7 +139,7 @@ BestRefinement best_placement(const Context& c, const KnownIntrinsics& known, co
 
 }  // namespace
 
-double residual_scale(std::vector<double> s, int parameter_count, const RobustLoss& loss) {
+double residual_scale(LargeVector<double> s, int parameter_count, const RobustLoss& loss) {
   if (loss.kind != RobustLoss::Kind::none) {
     std::nth_element(s.begin(), s.begin() + s.size() / 2, s.end());
     return std::sqrt(s[s.size() / 2] / (2 * std::numbers::ln2));

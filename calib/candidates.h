@@ -19,7 +19,7 @@ struct BestRefinement {
 
 /// Where residuals stand against the sigmas: sqrt(Σs/(2n - p)), or with a robust loss sqrt(median(s)/(2·ln
 /// 2)), the median of s being 2·ln 2 for Gaussian noise. 1 is noise alone.
-double residual_scale(std::vector<double> squared_residuals, int parameter_count, const RobustLoss& loss);
+double residual_scale(LargeVector<double> squared_residuals, int parameter_count, const RobustLoss& loss);
 
 /// Refines from every start that solve() describes; of more than 40,000 points, that many choose the start.
 /// `points` are the correspondences in normalised coordinates; with a prior, placements alone are sought.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "sim/device.h"
+#include "sim/large_vector.h"
 
 #include <glm/glm.hpp>
 
@@ -20,17 +21,17 @@ struct UncertainCamera {
 
 /// World points (metres) and the projector pixels that light them (integer coordinates are pixel centres).
 struct Correspondences {
-  std::vector<glm::dvec3> world_points;
-  std::vector<glm::dvec2> projector_pixels;
-  std::vector<double> sigma_px;  ///< per coordinate: u and v each have this standard deviation
+  LargeVector<glm::dvec3> world_points;
+  LargeVector<glm::dvec2> projector_pixels;
+  LargeVector<double> sigma_px;  ///< per coordinate: u and v each have this standard deviation
   /// The block of the camera image that a point was seen in; errors inside a block may be correlated. Ids
   /// need not be dense. Empty: every point is a block of its own.
-  std::vector<std::uint32_t> cluster;
+  LargeVector<std::uint32_t> cluster;
   /// With uncertain cameras: each point's camera, an index into `cameras`, and the unit normal (either sense)
   /// of the surface that the camera's ray met there. All three empty: the world points are certain.
   std::vector<UncertainCamera> cameras{};
-  std::vector<std::uint32_t> camera{};
-  std::vector<glm::dvec3> normals_world{};
+  LargeVector<std::uint32_t> camera{};
+  LargeVector<glm::dvec3> normals_world{};
 };
 
 /// Throws InputError, naming the first offending index, where the lengths differ, a number is not finite, a

@@ -8,8 +8,8 @@
 
 namespace laterna {
 
-std::vector<double> error_directions(const Device& device, const std::vector<glm::dvec3>& points_world,
-                                     const std::vector<glm::dvec2>& errors_px) {
+std::vector<double> error_directions(const Device& device, std::span<const glm::dvec3> points_world,
+                                     std::span<const glm::dvec2> errors_px) {
   const LensGradient lens(device.lens.model);
   const int p = lens.parameter_count() + 6;
   const WorldNormalisation normalisation = normalisation_of(points_world);

@@ -4,6 +4,7 @@
 
 #include "sim/device.h"
 
+#include <span>
 #include <vector>
 
 namespace laterna {
@@ -15,7 +16,7 @@ namespace laterna {
 /// parameters that are wrong by chance put nearly all into the first few; a descent that was stopped has
 /// taken those away and leaves the last. Points that the device does not project are passed over; all zero
 /// where e is.
-std::vector<double> error_directions(const Device& device, const std::vector<glm::dvec3>& points_world,
-                                     const std::vector<glm::dvec2>& errors_px);
+std::vector<double> error_directions(const Device& device, std::span<const glm::dvec3> points_world,
+                                     std::span<const glm::dvec2> errors_px);
 
 }  // namespace laterna

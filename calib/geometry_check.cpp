@@ -23,7 +23,7 @@ struct Spread {
 // Principal axes by SVD of the triangular factor of the centred coordinates: a covariance matrix would lose
 // half of the digits.
 template <int D, class Point>
-Spread spread_of(const std::vector<Point>& points) {
+Spread spread_of(const LargeVector<Point>& points) {
   const Point origin = points.front();
   Point mean(0.0);
   for (const auto& x : points) mean += (x - origin) / double(points.size());
@@ -45,7 +45,7 @@ Spread spread_of(const std::vector<Point>& points) {
 }
 
 // How many different points there are, counted up to `enough`.
-std::size_t distinct(const std::vector<glm::dvec3>& points, std::size_t enough) {
+std::size_t distinct(std::span<const glm::dvec3> points, std::size_t enough) {
   std::vector<glm::dvec3> seen;
   for (std::size_t i = 0; i < points.size() && seen.size() < enough; ++i) {
     if (std::find(seen.begin(), seen.end(), points[i]) == seen.end()) seen.push_back(points[i]);
@@ -53,7 +53,7 @@ std::size_t distinct(const std::vector<glm::dvec3>& points, std::size_t enough) 
   return seen.size();
 }
 
-double largest_coordinate(const std::vector<glm::dvec3>& points) {
+double largest_coordinate(std::span<const glm::dvec3> points) {
   double largest = 0;
   for (const auto& x : points) largest = std::max({largest, std::abs(x.x), std::abs(x.y), std::abs(x.z)});
   return largest;

@@ -36,7 +36,7 @@ ProjectorState stepped(const ProjectorState& from, const Eigen::VectorXd& step) 
 
 std::optional<LensLeftOut> lens_left_out(const PointTable& points, const ProjectorState& state,
                                          const RobustLoss& loss, const WorldNormalisation& normalisation,
-                                         glm::ivec2 size) {
+                                         glm::ivec2 size, double least_wald) {
   const LensGradient lens("LENSMODEL_OPENCV4");
   ProjectorState larger = state;
   larger.parameters.resize(4 + terms, 0.0);
@@ -54,7 +54,9 @@ std::optional<LensLeftOut> lens_left_out(const PointTable& points, const Project
   const Eigen::MatrixXd independent = variance * inverse * inverse.transpose();
   const Eigen::VectorXd k = step.segment(first_term, terms);
   LensLeftOut left{{}, wald_of(k, independent.block(first_term, first_term, terms, terms))};
-  if (const auto clustered = clustered_covariance(points, lens, larger, loss, *factor)) {
+  const auto clustered =
+      left.wald < least_wald ? std::nullopt : clustered_covariance(points, lens, larger, loss, *factor);
+  if (clustered) {
     const RowMajor c = Eigen::Map<const RowMajor>(clustered->data(), p, p);
     left.wald = std::min(left.wald, wald_of(k, c.block(first_term, first_term, terms, terms)));
   }

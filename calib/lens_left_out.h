@@ -16,9 +16,10 @@ struct LensLeftOut {
 /// The test of Wald on the step from a pinhole's optimum, all other parameters moving along. C is the
 /// covariance of independent noise scaled to the residuals, or the clustered one (covariance.h), whichever
 /// gives the smaller value. `state` is the pinhole in the points' normalised frame; `size` its image. None
-/// where the points do not determine the larger model.
+/// where the points do not determine the larger model. Where the first value is below `least_wald` already,
+/// the second is not sought.
 std::optional<LensLeftOut> lens_left_out(const PointTable& points, const ProjectorState& state,
                                          const RobustLoss& loss, const WorldNormalisation& normalisation,
-                                         glm::ivec2 size);
+                                         glm::ivec2 size, double least_wald = 0);
 
 }  // namespace laterna

@@ -32,11 +32,39 @@ bool pinhole_terms(const PointTable& points, const PlainPinhole& p, std::size_t 
                        &points.v[begin], count, g);
 }
 
-void pinhole_columns(const PlainPinhole& p, std::size_t count, const GroupTerms& g, const RowBlock& block) {
-  double* columns[22];
-  for (int j = 0; j < 11; ++j) columns[2 * j] = block.column(j, 0), columns[2 * j + 1] = block.column(j, 1);
-  pinhole_columns(p, count, g, columns);
+// Models with kernels of their own, told by their number of parameters, which no other model has.
+constexpr int pinhole_parameters = 4, opencv4_parameters = 8;
+
+bool has_kernel(const LensGradient& lens) {
+  return lens.parameter_count() == pinhole_parameters || lens.parameter_count() == opencv4_parameters;
 }
+
+// What up to 128 points give on the way to their rows, under a pinhole or LENSMODEL_OPENCV4.
+struct KernelTerms {
+  PlainPinhole pinhole;
+  std::optional<OpenCv4> lens;
+  GroupTerms group;
+  WarpTerms warp;
+
+  explicit KernelTerms(const ProjectorState& s) : pinhole(pinhole_of(s)) {
+    const auto& k = s.parameters;
+    if (k.size() == opencv4_parameters) lens = OpenCv4{k[4], k[5], k[6], k[7]};
+  }
+  bool fill(const PointTable& points, std::size_t begin, std::size_t count) {
+    if (!pinhole_terms(points, pinhole, begin, count, group)) return false;
+    if (lens) opencv4_terms(pinhole, *lens, &points.u[begin], &points.v[begin], count, group, warp);
+    return true;
+  }
+  void columns(std::size_t count, const RowBlock& block) const {
+    double* c[30];
+    for (int j = 0; j < (lens ? 15 : 11); ++j)
+      c[2 * j] = block.column(j, 0), c[2 * j + 1] = block.column(j, 1);
+    if (lens)
+      opencv4_columns(pinhole, count, group, warp, c);
+    else
+      pinhole_columns(pinhole, count, group, c);
+  }
+};
 
 void weigh(const PointTable& points, const RobustLoss& loss, std::size_t begin, std::size_t count,
            GroupTerms& g) {
@@ -70,9 +98,10 @@ bool fill_rows_with_lens(const PointTable& points, const LensGradient& lens, con
 // s of the points [begin, begin + count), count ≤ group.
 bool squared_of_group(const PointTable& points, const LensGradient& lens, const ProjectorState& state,
                       std::size_t begin, std::size_t count, double* s) {
-  GroupTerms g;
-  if (lens.parameter_count() == 4) {
-    if (!pinhole_terms(points, pinhole_of(state), begin, count, g)) return false;
+  KernelTerms terms(state);
+  GroupTerms& g = terms.group;
+  if (has_kernel(lens)) {
+    if (!terms.fill(points, begin, count)) return false;
   } else {
     double pixel[2];
     for (std::size_t i = 0; i < count; ++i) {
@@ -93,7 +122,7 @@ namespace {
 
 // Σ term(x), chunk by chunk, so that it is the same for any number of threads.
 template <class Sum, class Term>
-Sum sum_of(const std::vector<glm::dvec3>& points, Sum zero, const Term& term) {
+Sum sum_of(std::span<const glm::dvec3> points, Sum zero, const Term& term) {
   std::vector<Sum> parts((points.size() + chunk - 1) / chunk, zero);
   parallel_for(parts.size(), [&](std::size_t k) {
     Sum sum = zero;
@@ -105,7 +134,7 @@ Sum sum_of(const std::vector<glm::dvec3>& points, Sum zero, const Term& term) {
 
 }  // namespace
 
-WorldNormalisation normalisation_of(const std::vector<glm::dvec3>& points) {
+WorldNormalisation normalisation_of(std::span<const glm::dvec3> points) {
   if (points.empty()) return {};
   const glm::dvec3 origin =
       points.front();  // sums of differences keep their digits far from the world's origin
@@ -136,8 +165,8 @@ ProjectorState state_of(const Device& device) {
 namespace {
 
 // Indices sorted by cluster, stable. Ids are counted where they are dense enough, else sorted.
-std::vector<std::size_t> order_of(const std::vector<std::uint32_t>& cluster, std::size_t n) {
-  std::vector<std::size_t> order(n);
+LargeVector<std::size_t> order_of(std::span<const std::uint32_t> cluster, std::size_t n) {
+  LargeVector<std::size_t> order(n);
   const auto in_order = [&](std::size_t a, std::size_t b) { return cluster[a] < cluster[b]; };
   const std::size_t ids =
       cluster.empty() ? 0 : 1 + std::size_t(*std::max_element(cluster.begin(), cluster.end()));
@@ -157,7 +186,7 @@ std::vector<std::size_t> order_of(const std::vector<std::uint32_t>& cluster, std
 
 PointTable point_table(const Correspondences& c, const WorldNormalisation& normalisation) {
   const std::size_t n = c.world_points.size();
-  const std::vector<std::size_t> order = order_of(c.cluster, n);
+  const LargeVector<std::size_t> order = order_of(c.cluster, n);
   PointTable t;
   for (auto* column : {&t.x, &t.y, &t.z, &t.u, &t.v, &t.inverse_sigma}) column->resize(n);
   parallel_for((n + chunk - 1) / chunk, [&](std::size_t part) {
@@ -197,14 +226,13 @@ bool project_with_rows(const LensGradient& lens, const ProjectorState& state, co
 
 bool fill_rows(const PointTable& points, const LensGradient& lens, const ProjectorState& state,
                const RobustLoss& loss, std::size_t begin, std::size_t end, const RowBlock& block) {
-  if (lens.parameter_count() != 4) return fill_rows_with_lens(points, lens, state, loss, begin, end, block);
-  const PlainPinhole pinhole = pinhole_of(state);
-  GroupTerms g;
+  if (!has_kernel(lens)) return fill_rows_with_lens(points, lens, state, loss, begin, end, block);
+  KernelTerms terms(state);
   for (std::size_t i = begin; i < end; i += group) {
     const std::size_t count = std::min(group, end - i);
-    if (!pinhole_terms(points, pinhole, i, count, g)) return false;
-    weigh(points, loss, i, count, g);
-    pinhole_columns(pinhole, count, g, {block.values + (i - begin), block.column_stride, block.second_row});
+    if (!terms.fill(points, i, count)) return false;
+    weigh(points, loss, i, count, terms.group);
+    terms.columns(count, {block.values + (i - begin), block.column_stride, block.second_row});
   }
   return true;
 }
@@ -242,7 +270,7 @@ std::optional<std::vector<double>> row_factor(const PointTable& points, const Le
   StackedRows rows;
   rows.items = points.size();
   rows.columns = lens.parameter_count() + 7;
-  if (lens.parameter_count() == 4) {
+  if (has_kernel(lens)) {
     rows.support.assign(rows.columns, RowSupport::both);
     rows.support[0] = rows.support[2] = RowSupport::first;
     rows.support[1] = rows.support[3] = RowSupport::second;
@@ -255,9 +283,9 @@ std::optional<std::vector<double>> row_factor(const PointTable& points, const Le
   return with_prior(*factor, points.prior, state, rows.columns);
 }
 
-std::optional<std::vector<double>> squared_residuals(const PointTable& points, const LensGradient& lens,
+std::optional<LargeVector<double>> squared_residuals(const PointTable& points, const LensGradient& lens,
                                                      const ProjectorState& state) {
-  std::vector<double> s(points.size());
+  LargeVector<double> s(points.size());
   const std::size_t chunks = (points.size() + chunk - 1) / chunk;
   std::vector<char> failed(chunks, 0);
   parallel_for(chunks, [&](std::size_t k) {

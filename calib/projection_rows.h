@@ -9,8 +9,10 @@
 #include "calib/robust_loss.h"
 #include "calib/stacked_qr.h"
 #include "sim/device.h"
+#include "sim/large_vector.h"
 
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace laterna {
@@ -20,7 +22,7 @@ struct WorldNormalisation {
   glm::dvec3 center{0.0};
   double scale_m = 1;
 };
-WorldNormalisation normalisation_of(const std::vector<glm::dvec3>& world_points);
+WorldNormalisation normalisation_of(std::span<const glm::dvec3> world_points);
 
 /// x_device/scale = R·x_normalised + t_n with t_n = (t + R·center)/scale; a projection is blind to the scale.
 Rigid device_from_normalised(const Rigid& device_from_world, const WorldNormalisation& normalisation);
@@ -42,7 +44,7 @@ struct IntrinsicsPrior {
 
 /// Correspondences as columns, in normalised coordinates, sorted by cluster (stable).
 struct PointTable {
-  std::vector<double> x, y, z, u, v, inverse_sigma;
+  LargeVector<double> x, y, z, u, v, inverse_sigma;
   IntrinsicsPrior prior;  ///< rows of row_factor() and terms of total_loss() beside the points'
   std::vector<std::size_t> cluster_begin;  ///< cluster g holds the points [begin[g], begin[g + 1])
   std::size_t size() const { return x.size(); }
@@ -66,7 +68,7 @@ std::optional<std::vector<double>> row_factor(const PointTable& points, const Le
                                               const ProjectorState& state, const RobustLoss& loss);
 
 /// s = (du² + dv²)/σ² of each point, in the table's order. None where a point lies behind the device.
-std::optional<std::vector<double>> squared_residuals(const PointTable& points, const LensGradient& lens,
+std::optional<LargeVector<double>> squared_residuals(const PointTable& points, const LensGradient& lens,
                                                      const ProjectorState& state);
 
 /// Σ ρ(s), summed in a fixed order, and Σ ((k - mean)/sigma)² of the prior. None where a point lies behind

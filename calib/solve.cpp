@@ -77,7 +77,7 @@ Device device_of(const ProjectorState& state, glm::ivec2 size, const std::string
   return device;
 }
 
-void describe_fit(SolveResult& result, const PointTable& points, const std::vector<double>& s,
+void describe_fit(SolveResult& result, const PointTable& points, const LargeVector<double>& s,
                   const RobustLoss& loss) {
   const int p = result.free_parameters;
   double sum = 0, weighted = 0, outliers = 0;
@@ -95,7 +95,7 @@ void describe_fit(SolveResult& result, const PointTable& points, const std::vect
 
 // Picks the covariance that the verdict uses, and what it predicts over the estimate's own volume. False
 // where the estimate cannot map that volume.
-bool predict(SolveResult& result, const std::vector<glm::dvec3>& world_points) {
+bool predict(SolveResult& result, std::span<const glm::dvec3> world_points) {
   const int p = int(result.parameter_names.size());
   const auto volume = image_grid(result.estimate, volume_depths(depths_of(result.estimate, world_points)));
   const auto prediction = [&](const std::vector<double>& c) {
@@ -173,7 +173,8 @@ std::string lens_weakness(const SolveResult& r, const PointTable& points, const 
                           const WorldNormalisation& normalisation, const Correspondences& c,
                           const SolveOptions& options) {
   if (!is_pinhole(r.estimate.lens) || !r.covariance_camera.empty()) return "";
-  const auto left = lens_left_out(points, state, options.loss, normalisation, r.estimate.intrinsics.size);
+  const auto left =
+      lens_left_out(points, state, options.loss, normalisation, r.estimate.intrinsics.size, lens_is_there);
   if (!left || left->wald < lens_is_there) return "";
   const auto volume = image_grid(r.estimate, volume_depths(depths_of(r.estimate, c.world_points)));
   double sum = 0, count = 0;

@@ -105,7 +105,7 @@ TraceSum trace_together(const LensGradient& lens, const ProjectorState& state, c
 }
 
 ErrorSummary summarise(const Device& truth, const Device& estimate, const std::vector<double>& covariance,
-                       const std::vector<glm::dvec3>& points) {
+                       std::span<const glm::dvec3> points) {
   const WorldProjection true_projection(truth), estimated_projection(estimate);
   struct Part {
     double sum = 0, max = 0;
@@ -176,8 +176,9 @@ std::vector<glm::dvec3> image_grid(const Device& device, const std::vector<doubl
   return points;
 }
 
-std::vector<double> depths_of(const Device& device, const std::vector<glm::dvec3>& points) {
+std::vector<double> depths_of(const Device& device, std::span<const glm::dvec3> points) {
   std::vector<double> depths;
+  depths.reserve(points.size());
   for (const auto& x : points) {
     const double depth = apply(device.device_from_world, x).z;
     if (depth > 0 && std::isfinite(depth)) depths.push_back(depth);
@@ -186,7 +187,7 @@ std::vector<double> depths_of(const Device& device, const std::vector<glm::dvec3
 }
 
 std::vector<glm::dvec2> error_vectors(const Device& truth, const Device& estimate,
-                                      const std::vector<glm::dvec3>& points) {
+                                      std::span<const glm::dvec3> points) {
   const WorldProjection true_projection(truth), estimated_projection(estimate);
   std::vector<glm::dvec2> errors(points.size());
   in_chunks(points.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
@@ -199,7 +200,7 @@ std::vector<glm::dvec2> error_vectors(const Device& truth, const Device& estimat
 }
 
 std::optional<double> predicted_rms(const Device& device, const std::vector<double>& covariance,
-                                    const std::vector<glm::dvec3>& points) {
+                                    std::span<const glm::dvec3> points) {
   const LensGradient lens(device.lens.model);
   const ProjectorState state = state_of(device);
   const int p = lens.parameter_count() + 6;
@@ -218,7 +219,7 @@ std::optional<double> predicted_rms(const Device& device, const std::vector<doub
 }
 
 Verification verify(const Device& truth, const Device& estimate, const std::vector<double>& covariance,
-                    const std::vector<glm::dvec3>& surface_points) {
+                    std::span<const glm::dvec3> surface_points) {
   if (truth.intrinsics.size != estimate.intrinsics.size) {
     throw InputError(fmt::format("verify: the estimate's image is {}x{}, expected {}x{}",
                                  estimate.intrinsics.size.x, estimate.intrinsics.size.y,

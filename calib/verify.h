@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace laterna {
@@ -36,23 +37,23 @@ std::vector<double> extrapolation_depths(std::vector<double> lit_depths_m);
 std::vector<glm::dvec3> image_grid(const Device& device, const std::vector<double>& depths_m);
 
 /// Axial depths of the points that a device has in front of it.
-std::vector<double> depths_of(const Device& device, const std::vector<glm::dvec3>& world_points);
+std::vector<double> depths_of(const Device& device, std::span<const glm::dvec3> world_points);
 
 /// du, dv of each point: estimate - truth; NaN where either cannot project it.
 std::vector<glm::dvec2> error_vectors(const Device& truth, const Device& estimate,
-                                      const std::vector<glm::dvec3>& world_points);
+                                      std::span<const glm::dvec3> world_points);
 
 /// sqrt(mean(trace(J·C·Jᵀ))) over the points that the device projects. `covariance`: row-major p×p, tangent
 /// order fx, fy, cx, cy, lens, rotation (left, device frame, rad), translation (m); world frame. None where
 /// no point can be projected.
 std::optional<double> predicted_rms(const Device& device, const std::vector<double>& covariance,
-                                    const std::vector<glm::dvec3>& world_points);
+                                    std::span<const glm::dvec3> world_points);
 
 /// The three sets of DESIGN.md, laid out by the true device; `covariance` may be empty. Throws InputError
 /// where no surface point lies in front of the true device, the images differ in size, or the covariance has
 /// another size than the estimate's parameters. A point that the estimate cannot project is counted and makes
 /// rms and max infinite.
 Verification verify(const Device& truth, const Device& estimate, const std::vector<double>& covariance,
-                    const std::vector<glm::dvec3>& surface_points);
+                    std::span<const glm::dvec3> surface_points);
 
 }  // namespace laterna

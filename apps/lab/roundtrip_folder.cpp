@@ -73,7 +73,7 @@ nlohmann::json figures_json(const Scene& scene, const Traced& traced, const std:
   }
   std::vector<glm::dvec3> all;
   for (const ProjectorOutcome& o : outcomes) {
-    const std::vector<glm::dvec3> lit = lit_points(traced, o.projector);
+    const LargeVector<glm::dvec3> lit = lit_points(traced, o.projector);
     all.insert(all.end(), lit.begin(), lit.end());
     if (o.solve.status != Status::refused)
       json["projections"].push_back(

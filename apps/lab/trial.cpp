@@ -8,12 +8,39 @@
 
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace laterna {
 
 namespace {
 
 constexpr float nan_f = std::numeric_limits<float>::quiet_NaN();
+
+// Where the selected pixels of each image row stand in a list of all of them that goes on from `first`; one
+// more says where it ends.
+template <class Selected>
+std::vector<std::size_t> row_begins(int width, int height, std::size_t first, const Selected& selected) {
+  std::vector<std::size_t> begin(std::size_t(height) + 1, 0);
+  parallel_for(height, [&](std::size_t y) {
+    std::size_t count = 0;
+    for (std::size_t i = y * width; i < (y + 1) * width; ++i) count += selected(i);
+    begin[y + 1] = count;
+  });
+  begin[0] = first;
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  return begin;
+}
+
+// Calls take(pixel's index, place in the list) for each of them.
+template <class Selected, class Take>
+void for_selected(int width, const std::vector<std::size_t>& begin, const Selected& selected,
+                  const Take& take) {
+  parallel_for(begin.size() - 1, [&](std::size_t y) {
+    std::size_t k = begin[y];
+    for (std::size_t i = y * width; i < (y + 1) * width; ++i)
+      if (selected(i)) take(i, k++);
+  });
+}
 
 void judge(const Scene& scene, const Traced& traced, const Correspondences& correspondences,
            const TrialOptions& options, ProjectorOutcome& outcome) {
@@ -30,7 +57,7 @@ void judge(const Scene& scene, const Traced& traced, const Correspondences& corr
   outcome.solve = outcome.times.measure(
       "solve", [&] { return solve(correspondences, truth.intrinsics.size, solve_options); });
   if (outcome.solve.status == Status::refused) return;
-  const std::vector<glm::dvec3> points = lit_points(traced, outcome.projector);
+  const LargeVector<glm::dvec3> points = lit_points(traced, outcome.projector);
   if (points.empty()) {
     outcome.solve.status = Status::refused;
     outcome.solve.reason = "pictures decoded although no camera pixel is lit: noise was taken for signal";
@@ -64,14 +91,16 @@ void append_flags(const CapturedStack& pictures, const PatternSequence& sequence
 
 }  // namespace
 
-std::vector<glm::dvec3> lit_points(const Traced& traced, int projector) {
-  std::vector<glm::dvec3> points;
+LargeVector<glm::dvec3> lit_points(const Traced& traced, int projector) {
+  LargeVector<glm::dvec3> points;
   for (const View& view : traced.views) {
     if (view.projector != projector) continue;
-    const auto& points_world = traced.points_world[view.camera].values;
-    for (std::size_t i = 0; i < points_world.size(); ++i) {
-      if (view.light.lit(i)) points.push_back(points_world[i]);
-    }
+    const PixelArray<glm::dvec3>& points_world = traced.points_world[view.camera];
+    const auto lit = [&](std::size_t i) { return view.light.lit(i); };
+    const auto begin = row_begins(points_world.width, points_world.height, points.size(), lit);
+    points.resize(begin.back());
+    for_selected(points_world.width, begin, lit,
+                 [&](std::size_t i, std::size_t k) { points[k] = points_world.values[i]; });
   }
   return points;
 }
@@ -85,30 +114,21 @@ void append_correspondences(const DecodedMap& decoded, const ToldPoints& told, i
   const auto usable = [&](std::size_t i) {
     return decoded.valid.values[i] && !std::isnan(points_world.values[i].x);
   };
-  std::vector<std::size_t> first(height + 1, out.world_points.size());  // where each image row's stand
-  for (int y = 0; y < height; ++y) {
-    first[y + 1] = first[y];
-    for (int x = 0; x < width; ++x) first[y + 1] += usable(points_world.index(x, y));
-  }
-  out.world_points.resize(first.back()), out.projector_pixels.resize(first.back());
-  out.sigma_px.resize(first.back()), out.cluster.resize(first.back());
+  const auto begin = row_begins(width, height, out.world_points.size(), usable);
+  out.world_points.resize(begin.back()), out.projector_pixels.resize(begin.back());
+  out.sigma_px.resize(begin.back()), out.cluster.resize(begin.back());
   if (!out.cameras.empty()) {
-    out.camera.resize(first.back(), std::uint32_t(camera));
-    out.normals_world.resize(first.back());
+    out.camera.resize(begin.back(), std::uint32_t(camera));
+    out.normals_world.resize(begin.back());
   }
-  parallel_for(height, [&](std::size_t row) {
-    const int y = int(row);
-    std::size_t k = first[row];
-    for (int x = 0; x < width; ++x) {
-      const std::size_t i = points_world.index(x, y);
-      if (!usable(i)) continue;
-      out.world_points[k] = points_world.values[i];
-      out.projector_pixels[k] = {decoded.u_px.values[i], decoded.v_px.values[i]};
-      out.sigma_px[k] = decoded.sigma_px.values[i];
-      if (!out.cameras.empty()) out.normals_world[k] = told.normals_world.values[i];
-      out.cluster[k++] = std::uint32_t(camera) * blocks + std::uint32_t(y / block_px) * columns +
-                         std::uint32_t(x / block_px);
-    }
+  for_selected(width, begin, usable, [&](std::size_t i, std::size_t k) {
+    const std::uint32_t x = std::uint32_t(i % std::size_t(width)), y = std::uint32_t(i / std::size_t(width));
+    out.world_points[k] = points_world.values[i];
+    out.projector_pixels[k] = {decoded.u_px.values[i], decoded.v_px.values[i]};
+    out.sigma_px[k] = decoded.sigma_px.values[i];
+    if (!out.cameras.empty()) out.normals_world[k] = told.normals_world.values[i];
+    out.cluster[k] =
+        std::uint32_t(camera) * blocks + y / std::uint32_t(block_px) * columns + x / std::uint32_t(block_px);
   });
 }
 

@@ -50,7 +50,7 @@ DecodedMap true_map(const LightMap& light);
 
 /// The world points of every camera pixel that the projector truly lights, view by view, in the order of
 /// pixels.
-std::vector<glm::dvec3> lit_points(const Traced& traced, int projector);
+LargeVector<glm::dvec3> lit_points(const Traced& traced, int projector);
 
 /// Runs the round trip for each projector of the scene, all cameras together. Pictures and the true projector
 /// are those of the true meshes and cameras; the world points handed to the solver come from the believed

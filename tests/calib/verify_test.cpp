@@ -13,7 +13,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-std::vector<glm::dvec3> surface(const Device& d, int n = 500) {
+LargeVector<glm::dvec3> surface(const Device& d, int n = 500) {
   auto random = testing::generator();
   return testing::scattered(d, n, 2, 4, 0.1, random).world_points;
 }

@@ -43,7 +43,7 @@ PictureCondition condition_of(const nlohmann::json& values, const std::string& p
 
 // How far the light lands from where it should, across the ray: at axial depth z a projector pixel is z/f
 // wide.
-double surface_rms_mm(const Device& truth, const Device& estimate, const std::vector<glm::dvec3>& points) {
+double surface_rms_mm(const Device& truth, const Device& estimate, std::span<const glm::dvec3> points) {
   const std::vector<glm::dvec2> errors = error_vectors(truth, estimate, points);
   double sum = 0;
   for (std::size_t k = 0; k < points.size(); ++k) {

@@ -55,7 +55,7 @@ void describe(Visitor& visit, PointCondition& c) {
 struct PointProblem {
   Device truth;
   Correspondences correspondences;
-  std::vector<glm::dvec3> lit_points;  ///< true world points, for the volume
+  LargeVector<glm::dvec3> lit_points;  ///< true world points, for the volume
 };
 
 /// Points on pixels drawn evenly over the lit part of the picture, at depths of the condition's shape:

@@ -123,8 +123,8 @@ double rms_of(const std::vector<glm::dvec2>& errors) {
 Json grid_row(const Device& truth, const Device& estimate, const std::vector<double>& covariance,
               double depth_m, const glm::dvec3& point) {
   const glm::dvec3 pixel = WorldProjection(truth).project(point);
-  const glm::dvec2 error = error_vectors(truth, estimate, {point}).front();
-  const auto sigma = predicted_rms(estimate, covariance, {point});
+  const glm::dvec2 error = error_vectors(truth, estimate, {&point, 1}).front();
+  const auto sigma = predicted_rms(estimate, covariance, {&point, 1});
   return {{"depth_m", depth_m},    {"u", number(pixel.x)},  {"v", number(pixel.y)},
           {"du", number(error.x)}, {"dv", number(error.y)}, {"sigma_px", sigma ? number(*sigma) : Json()}};
 }
@@ -193,7 +193,7 @@ Json residual_figure(const DecodedMap& decoded, const PixelArray<glm::dvec3>& po
 }
 
 Json projection_figure(const Device& truth, const Device& estimate, const std::vector<double>& covariance,
-                       const std::vector<glm::dvec3>& surface_points) {
+                       std::span<const glm::dvec3> surface_points) {
   const std::vector<double> lit = depths_of(truth, surface_points);
   if (lit.empty()) return nullptr;
   const std::vector<double> volume = volume_depths(lit);
@@ -209,7 +209,7 @@ Json projection_figure(const Device& truth, const Device& estimate, const std::v
           {"by_range", range_rows(truth, estimate, covariance, volume.front(), volume.back())}};
 }
 
-Json points_figure(const std::vector<glm::dvec3>& points) {
+Json points_figure(std::span<const glm::dvec3> points) {
   Json list = Json::array();
   for (const std::size_t k : evenly_spread(points.size(), most_points)) append(list, points[k]);
   return list;

@@ -32,9 +32,9 @@ nlohmann::json residual_figure(const DecodedMap& decoded, const PixelArray<glm::
 /// the farthest. sigma is sqrt(trace(J·C·Jᵀ)), as rms_px. null where no point lies in front.
 nlohmann::json projection_figure(const Device& truth, const Device& estimate,
                                  const std::vector<double>& covariance,
-                                 const std::vector<glm::dvec3>& surface_points);
+                                 std::span<const glm::dvec3> surface_points);
 
 /// At most 3,000 of the surface's points that a projector lights, as [x, y, z, ...] in m.
-nlohmann::json points_figure(const std::vector<glm::dvec3>& points);
+nlohmann::json points_figure(std::span<const glm::dvec3> points);
 
 }  // namespace laterna

@@ -11,7 +11,7 @@
 namespace laterna {
 
 Probe make_probe(const ScoreRig& truth, const Alignment& alignment,
-                 const std::vector<glm::dvec3>& surface_points) {
+                 std::span<const glm::dvec3> surface_points) {
   const Device& device = truth.projector;
   const std::vector<double> depths = depths_of(device, surface_points);
   if (depths.empty()) throw InputError("no surface point lies in front of the true projector, expected some");
@@ -33,8 +33,7 @@ glm::dvec2 stretched(const glm::dvec2& pixel, glm::ivec2 from, glm::ivec2 to) {
 }
 
 std::vector<glm::dvec2> result_pixels(const ScoreRig& result, const ScoreRig& truth,
-                                      const Alignment& alignment,
-                                      const std::vector<glm::dvec3>& points_world) {
+                                      const Alignment& alignment, std::span<const glm::dvec3> points_world) {
   std::vector<glm::dvec2> pixels(points_world.size(), glm::dvec2(std::numeric_limits<double>::quiet_NaN()));
   const auto projector = align(result, truth, alignment);
   if (!projector) return pixels;
@@ -46,7 +45,7 @@ std::vector<glm::dvec2> result_pixels(const ScoreRig& result, const ScoreRig& tr
   return pixels;
 }
 
-double squared_error_px2(const std::vector<glm::dvec2>& pixels, const std::vector<glm::dvec2>& true_pixels,
+double squared_error_px2(std::span<const glm::dvec2> pixels, std::span<const glm::dvec2> true_pixels,
                          double diagonal_px) {
   const double most = diagonal_px * diagonal_px;
   double sum = 0;

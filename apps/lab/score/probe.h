@@ -4,6 +4,7 @@
 #include "apps/lab/score/score_rig.h"
 
 #include <functional>
+#include <span>
 #include <vector>
 
 namespace laterna {
@@ -22,7 +23,7 @@ struct Probe {
 /// Up to 2,000 of the surface points, evenly spread, and the volume of verify.h. Throws InputError where no
 /// surface point lies in front of the true projector.
 Probe make_probe(const ScoreRig& truth, const Alignment& alignment,
-                 const std::vector<glm::dvec3>& surface_points);
+                 std::span<const glm::dvec3> surface_points);
 
 /// A pixel of a picture of size `from`, at the same share of the width and height of a picture of size `to`:
 /// u' = (u + 0.5)·W_to/W_from - 0.5. Results of another picture size are compared so.
@@ -31,16 +32,15 @@ glm::dvec2 stretched(const glm::dvec2& pixel, glm::ivec2 from, glm::ivec2 to);
 /// The pixels that a result, aligned and stretched, gives to points; NaN where it gives none or cannot be
 /// aligned.
 std::vector<glm::dvec2> result_pixels(const ScoreRig& result, const ScoreRig& truth,
-                                      const Alignment& alignment,
-                                      const std::vector<glm::dvec3>& points_world);
+                                      const Alignment& alignment, std::span<const glm::dvec3> points_world);
 inline std::vector<glm::dvec2> result_pixels(const ScoreRig& result, const Probe& probe) {
   return result_pixels(result, probe.truth, probe.alignment, probe.points_world);
 }
 
 /// mean(min(|e|², diagonal²)), px².
-double squared_error_px2(const std::vector<glm::dvec2>& pixels, const std::vector<glm::dvec2>& true_pixels,
+double squared_error_px2(std::span<const glm::dvec2> pixels, std::span<const glm::dvec2> true_pixels,
                          double diagonal_px);
-inline double squared_error_px2(const std::vector<glm::dvec2>& pixels, const Probe& probe) {
+inline double squared_error_px2(std::span<const glm::dvec2> pixels, const Probe& probe) {
   return squared_error_px2(pixels, probe.true_pixels, probe.diagonal_px);
 }
 

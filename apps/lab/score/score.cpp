@@ -37,7 +37,7 @@ std::pair<std::optional<Device>, std::optional<Device>> cameras(const Scene& sce
 }
 
 double rms_mm(const ScoreRig& result, const ScoreRig& truth, const Alignment& alignment,
-              const std::vector<glm::dvec3>& points) {
+              std::span<const glm::dvec3> points) {
   const auto projector = align(result, truth, alignment);
   if (!projector) return nan;
   const WorldProjection projection(*projector), true_projection(truth.projector);
@@ -56,7 +56,7 @@ double rms_mm(const ScoreRig& result, const ScoreRig& truth, const Alignment& al
 }
 
 double rms_px(const ScoreRig& result, const ScoreRig& truth, const Alignment& alignment,
-              const std::vector<glm::dvec3>& points) {
+              std::span<const glm::dvec3> points) {
   const WorldProjection projection(truth.projector);
   std::vector<glm::dvec2> expected;
   std::vector<glm::dvec3> projected;
@@ -149,7 +149,7 @@ std::vector<Suspect> joined(std::vector<Suspect> a, std::vector<Suspect> b) {
 ProjectorScore score_one(const ScoreTruth& truth, const Traced& traced, const Predicted& predicted, int p,
                          const ScoreRig& result, const ScoreRig& true_rig, const Alignment& alignment,
                          const ScoreOptions& options) {
-  const std::vector<glm::dvec3> surface = lit_points(traced, p);
+  const LargeVector<glm::dvec3> surface = lit_points(traced, p);
   const std::vector<double> depths = depths_of(true_rig.projector, surface);
   if (depths.empty())
     throw InputError(
@@ -216,7 +216,7 @@ std::vector<ProjectorScore> score(const ScoreTruth& truth, const ScoreResult& re
     scores.push_back(
         score_one(truth, traced, predicted, p, {camera, projector}, true_rig, alignment, options));
     const auto& covariance = result.covariance.at(i);
-    const std::vector<glm::dvec3> points = lit_points(traced, p);
+    const LargeVector<glm::dvec3> points = lit_points(traced, p);
     scores.back().predicted_volume_px =
         covariance.empty() ? nan
                            : predicted_rms(projector, covariance,

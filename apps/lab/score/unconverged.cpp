@@ -42,8 +42,10 @@ std::optional<Resolved> resolve_from(const ScoreRig& result, const Probe& probe)
       projector->intrinsics.size != truth.intrinsics.size ||
       glm::determinant(projector->device_from_world.rotation) < 0)
     return std::nullopt;
-  const Correspondences exact{
-      probe.points_world, probe.true_pixels, std::vector<double>(probe.points_world.size(), 1.0), {}};
+  Correspondences exact;
+  exact.world_points.assign(probe.points_world.begin(), probe.points_world.end());
+  exact.projector_pixels.assign(probe.true_pixels.begin(), probe.true_pixels.end());
+  exact.sigma_px.assign(probe.points_world.size(), 1.0);
   const WorldNormalisation normalisation = normalisation_of(exact.world_points);
   ProjectorState start = state_of(*projector);
   start.device_from_points = device_from_normalised(start.device_from_points, normalisation);

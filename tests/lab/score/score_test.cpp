@@ -50,7 +50,7 @@ struct Case {
   ScoreRig truth;
   Device recovered;
   double bound_px = 0;
-  std::vector<glm::dvec3> surface;
+  LargeVector<glm::dvec3> surface;
 };
 
 class OnTwoRigs : public ::testing::TestWithParam<bool> {
@@ -155,15 +155,11 @@ TEST_P(OnTwoRigs, Overscan) {
 
 TEST_P(OnTwoRigs, Unconverged) {
   const Case& c = rig();
-  const Correspondences exact{c.surface,
-                              [&] {
-                                std::vector<glm::dvec2> pixels;
-                                const WorldProjection projection(c.truth.projector);
-                                for (const auto& x : c.surface) pixels.emplace_back(projection.project(x));
-                                return pixels;
-                              }(),
-                              std::vector<double>(c.surface.size(), 1.0),
-                              {}};
+  Correspondences exact;
+  exact.world_points = c.surface;
+  const WorldProjection projection(c.truth.projector);
+  for (const auto& x : c.surface) exact.projector_pixels.emplace_back(projection.project(x));
+  exact.sigma_px.assign(c.surface.size(), 1.0);
   // Intrinsics as a solve begins with, and the placement that fits them best.
   SolveOptions options;
   Intrinsics guess = c.truth.projector.intrinsics;
