@@ -178,10 +178,12 @@ std::string summary_text(const BoardCalibration& c) {
   std::string text =
       fmt::format("fit {:.4f} px rms, held out {} px rms; {} iterations ({})\n", c.fit_rms_px(), held_out,
                   c.ladder.fit.adjustment.iterations, c.ladder.fit.adjustment.termination);
-  text +=
-      fmt::format("predicted error over {}'s volume: {:.3f} px by noise alone, {} px by leaving poses out\n",
-                  c.devices.back().name, d.predicted_volume_rms_px,
-                  d.jackknife_volume_rms_px ? fmt::format("{:.3f}", *d.jackknife_volume_rms_px) : "-");
+  text += fmt::format(
+      "predicted error over {}'s volume, of points fixed on the boards: {:.3f} px by noise alone, {} px by "
+      "leaving poses out; of points fixed in the camera's frame, which turns with its centre: {:.3f} px\n",
+      c.devices.back().name, d.predicted_volume_rms_px,
+      d.jackknife_volume_rms_px ? fmt::format("{:.3f}", *d.jackknife_volume_rms_px) : "-",
+      d.predicted_volume_camera_frame_rms_px);
   text += fmt::format("weakest: {} (sigma {:.2g} in natural units, gap {:.1g})\n", d.weakest_direction,
                       d.weakest_sigma, d.smallest_gap);
   for (const std::string& words : d.correlations) text += "  " + words + "\n";
@@ -223,7 +225,8 @@ Json board_json(const BoardCalibration& c) {
   json["parameters"] = c.parameter_names;
   json["covariance"] = c.covariance.global;
   json["predicted_volume_px"] = {{"independent", number(d.predicted_volume_rms_px)},
-                                 {"jackknife", number(d.jackknife_volume_rms_px)}};
+                                 {"jackknife", number(d.jackknife_volume_rms_px)},
+                                 {"camera_frame", number(d.predicted_volume_camera_frame_rms_px)}};
   json["weakest"] = {{"direction", d.weakest_direction},
                      {"sigma", number(d.weakest_sigma)},
                      {"gap", number(d.smallest_gap)}};

@@ -15,10 +15,10 @@ namespace laterna {
 /// [{"name", "size", "fx", "fy", "cx", "cy", "lens": {"model", "parameters"}, "sigma": {...}, "sigma_px",
 /// "fit_rms_px", "coverage", "prediction_sigma_px": [{"range", "center", "rms", "worst"}]}], "projectors":
 /// [the same and "device_from_camera": 3×4], "board_bend", "parameters", "covariance" (row-major, in their
-/// order), "predicted_volume_px": {"independent", "jackknife"}, "weakest": {"direction", "sigma", "gap"},
-/// "correlations", "poses", "dropped", "ladder"}. Device 0 is a camera, the others are projectors.
-/// x_projector = R·x_camera + t in the file's unit of length. Without an estimate the lists are empty and the
-/// numbers null; a number that is not finite is null.
+/// order), "predicted_volume_px": {"independent", "jackknife", "camera_frame"}, "weakest": {"direction",
+/// "sigma", "gap"}, "correlations", "poses", "dropped", "ladder"}. Device 0 is a camera, the others are
+/// projectors. x_projector = R·x_camera + t in the file's unit of length. Without an estimate the lists are
+/// empty and the numbers null; a number that is not finite is null.
 nlohmann::json board_json(const BoardCalibration& calibration);
 
 /// The same as a report to read: ladder, parameters with sigmas, poses, how sure the pixels are, verdict.

@@ -75,13 +75,14 @@ double coverage(const BoardCapture& capture, int device) {
   return double(std::count(cell.begin(), cell.end(), 1)) / (columns * rows);
 }
 
-// rms of sqrt(trace) over points; NaN without points.
+// rms of sqrt(trace) over points; NaN without points. `predict` is pixel_covariance() or its like.
 RangeSigma sigma_over(const RigProblem& problem, const RigFit& fit, const RigCovariance& covariance,
-                      int device, const std::vector<glm::dvec3>& points) {
+                      int device, const std::vector<glm::dvec3>& points,
+                      const decltype(pixel_covariance)& predict = pixel_covariance) {
   RangeSigma r;
   double sum = 0, count = 0;
   for (const glm::dvec3& x : points) {
-    const auto c = pixel_covariance(problem, fit.adjustment.rig, covariance, device, x);
+    const auto c = predict(problem, fit.adjustment.rig, covariance, device, x);
     if (!c) continue;
     sum += c->x + c->z, ++count;
     r.worst_px = std::max(r.worst_px, std::sqrt(c->x + c->z));
@@ -238,6 +239,8 @@ Diagnosis diagnose(const RigFit& fit, const RigCovariance& covariance, const Hel
   const auto volume = device_grid(fit, last, volume_depths(depths_of_sightings(fit, last)));
   d.maps_its_volume = volume.size() == std::size_t(16 * 12 * 12);
   d.predicted_volume_rms_px = sigma_over(problem, fit, covariance, last, volume).rms_px;
+  d.predicted_volume_camera_frame_rms_px =
+      sigma_over(problem, fit, covariance, last, volume, pixel_covariance_in_camera).rms_px;
   double sum = 0;
   for (const HeldOutPose& fold : held_out.folds) {
     d.poses[fold.pose].leverage_px = leverage(problem, fit, fold, last, volume);

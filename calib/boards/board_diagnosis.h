@@ -47,6 +47,9 @@ struct Diagnosis {
   /// have in common too: correlated noise, a bent board, a lens that is modelled too simply. None where a
   /// pose cannot be left out.
   std::optional<double> jackknife_volume_rms_px;
+  /// As predicted_volume_rms_px, of points that are fixed in the camera's frame instead of on the boards
+  /// (pixel_covariance_in_camera()): what a comparison with a truth in the camera's frame will find.
+  double predicted_volume_camera_frame_rms_px = 0;
   bool maps_its_volume = true;  ///< the lens gives every pixel of the image a ray
 
   /// The weakest direction in natural units (shares of the focal length, radians, shares of the distance,

@@ -70,36 +70,66 @@ std::vector<double> full_covariance(const RigCovariance& c) {
   return values_of(full);
 }
 
-std::optional<glm::dvec3> pixel_covariance(const RigProblem& problem, const BoardRig& rig,
-                                           const RigCovariance& c, int device, const glm::dvec3& x_device) {
+namespace {
+
+// Of the pixel of a point: by x_device, and by the global parameters where the point is fixed in the camera's
+// frame.
+struct PixelRows {
+  glm::dvec3 by_point[2];
+  RowMajor by_globals;
+};
+
+std::optional<PixelRows> pixel_rows(const RigProblem& problem, const BoardRig& rig, int globals, int device,
+                                    const glm::dvec3& x_device) {
   const RigDevice& d = rig.devices[device];
   const RigColumns::Of& of = problem.columns.devices[device];
   const int k = problem.lenses[device].parameter_count();
   double pixel[2], dx[6];
   std::vector<double> dk(2 * std::size_t(k));
   if (!problem.lenses[device].project(d.parameters, x_device, pixel, dx, dk.data())) return std::nullopt;
-  const glm::dvec3 x_camera = apply(inverse(d.device_from_camera), x_device);
-
-  RowMajor global = RowMajor::Zero(2, c.globals);
-  Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
-  glm::dvec3 g[2];
+  PixelRows rows{{}, RowMajor::Zero(2, globals)};
   for (int r = 0; r < 2; ++r) {
-    g[r] = {dx[3 * r], dx[3 * r + 1], dx[3 * r + 2]};
+    rows.by_point[r] = {dx[3 * r], dx[3 * r + 1], dx[3 * r + 2]};
     for (int i = 0; i < k; ++i)
-      if (of.intrinsics[i] >= 0) global(r, of.intrinsics[i]) += dk[r * k + i];
-    if (of.pose >= 0) add_pose_row(&global(r, of.pose), x_device - d.device_from_camera.translation, g[r]);
+      if (of.intrinsics[i] >= 0) rows.by_globals(r, of.intrinsics[i]) += dk[r * k + i];
+    if (of.pose >= 0)
+      add_pose_row(&rows.by_globals(r, of.pose), x_device - d.device_from_camera.translation,
+                   rows.by_point[r]);
   }
+  return rows;
+}
+
+glm::dvec3 upper_of(const Eigen::Matrix2d& m) { return {m(0, 0), m(0, 1), m(1, 1)}; }
+
+}  // namespace
+
+std::optional<glm::dvec3> pixel_covariance_in_camera(const RigProblem& problem, const BoardRig& rig,
+                                                     const RigCovariance& c, int device,
+                                                     const glm::dvec3& x_device) {
+  const auto rows = pixel_rows(problem, rig, c.globals, device, x_device);
+  if (!rows) return std::nullopt;
+  return upper_of(rows->by_globals * square(c.global, c.globals) * rows->by_globals.transpose());
+}
+
+std::optional<glm::dvec3> pixel_covariance(const RigProblem& problem, const BoardRig& rig,
+                                           const RigCovariance& c, int device, const glm::dvec3& x_device) {
+  const auto rows = pixel_rows(problem, rig, c.globals, device, x_device);
+  if (!rows) return std::nullopt;
+  const RigDevice& d = rig.devices[device];
+  const glm::dvec3 x_camera = apply(inverse(d.device_from_camera), x_device);
+  RowMajor global = rows->by_globals;
+  Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
   const double share = 1.0 / std::max<double>(1, double(c.pose_own.size()));
   for (std::size_t n = 0; n < c.pose_own.size(); ++n) {
     RowMajor own = RowMajor::Zero(2, 6);
     for (int r = 0; r < 2; ++r)
       add_pose_row(&own(r, 0), x_camera - rig.camera_from_board[n].translation,
-                   share * (g[r] * d.device_from_camera.rotation));
+                   share * (rows->by_point[r] * d.device_from_camera.rotation));
     global += own * Map(c.pose_from_global[n].data(), 6, c.globals);
     sum += own * square(c.pose_own[n], 6) * own.transpose();
   }
   sum += global * square(c.global, c.globals) * global.transpose();
-  return glm::dvec3(sum(0, 0), sum(0, 1), sum(1, 1));
+  return upper_of(sum);
 }
 
 std::optional<glm::dvec2> carried_pixel(const LensGradient& lens, const BoardRig& from, const BoardRig& to,

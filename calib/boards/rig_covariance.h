@@ -38,8 +38,16 @@ std::optional<glm::dvec3> pixel_covariance(const RigProblem& problem, const Boar
                                            const RigCovariance& covariance, int device,
                                            const glm::dvec3& x_device);
 
-/// The same map without linearising: where device d of `to` puts the point that device d of `from` has at
-/// x_device. `poses[i]` is the index in `from` of pose i of `to`. None where it lies behind.
+/// The same of a point that is fixed in the camera's frame: what verify() compares where the truth's camera
+/// frame is taken for the estimate's. A camera's centre that is a pixel off turns its frame by a pixel, which
+/// boards, and points triangulated by the same rig, turn with: this is then much larger than
+/// pixel_covariance().
+std::optional<glm::dvec3> pixel_covariance_in_camera(const RigProblem& problem, const BoardRig& rig,
+                                                     const RigCovariance& covariance, int device,
+                                                     const glm::dvec3& x_device);
+
+/// The map of pixel_covariance() without linearising: where device d of `to` puts the point that device d of
+/// `from` has at x_device. `poses[i]` is the index in `from` of pose i of `to`. None where it lies behind.
 std::optional<glm::dvec2> carried_pixel(const LensGradient& lens, const BoardRig& from, const BoardRig& to,
                                         const std::vector<int>& poses, int device,
                                         const glm::dvec3& x_device);

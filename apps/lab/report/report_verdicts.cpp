@@ -38,6 +38,8 @@ Json board_verdict(const Json& b) {
            "px rms");
   add_fact(facts, "error over the volume, by leaving poses out",
            member(b, "predicted_volume_px", "jackknife"), "px rms");
+  add_fact(facts, "the same in the camera's own frame", member(b, "predicted_volume_px", "camera_frame"),
+           "px rms");
   if (b.contains("poses")) add_fact(facts, "poses", b["poses"].size(), "");
   return {{"of", "calibration from boards"},
           {"status", b.at("status")},

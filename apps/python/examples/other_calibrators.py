@@ -151,13 +151,15 @@ def main():
         print(f"{name:<16}{found.K[0, 0]:>10.2f}{found.K[1, 2]:>10.2f}{errors[name].surface.rms:>12.3f}{errors[name].volume.rms:>12.3f}")
     predicted = own.as_dict()["predicted_volume_px"]
     print("laterna predicts", ", ".join(f"{value:.3f} px ({name})" for name, value in predicted.items()))
-    print("(in the recovered camera's frame: its own centre, a pixel off, turns that frame by a pixel)")
+    print("(errors above are of points in the camera's frame, which its own centre, a pixel off, turns by a pixel;")
+    print(" the first two predictions are of points that are fixed on the boards, and turn with it)")
 
     joint = errors[f"laterna ({own.status})"].volume.rms
     # mrcal and Laterna maximise the same likelihood: they differ by what mrcal's outlier rejection drops.
     assert abs(errors["mrcal"].volume.rms - joint) < 0.3 * joint
-    # Corners 0.1 px off over a few hundred sightings put centres within 2 px; OpenCV's stepwise solve gets twice that.
-    assert joint < 3 and errors["OpenCV"].volume.rms < 6
+    # Over ten such sets of places the joint error was 1.08 times this prediction in the rms, 1.8 times at most.
+    assert joint < 3 * predicted["camera_frame"]
+    assert errors["OpenCV"].volume.rms < 6 * predicted["camera_frame"]
 
 
 if __name__ == "__main__":

@@ -55,17 +55,13 @@ TEST(RigCovariance, IsTheInverseOfTheDenseNormalMatrix) {
       ASSERT_NEAR(full[i * dense.cols() + j], dense(i, j), 1e-6 * std::sqrt(dense(i, i) * dense(j, j)));
 }
 
-TEST(RigCovariance, PredictedPixelsAreTheDerivativeOfCarriedOnes) {
-  auto random = testing::generator();
-  const auto t = testing::board_truth(usual_scene(), random);
-  const RigProblem problem(t.capture, t.model);
-  const auto c = testing::true_covariance(t);
-  ASSERT_TRUE(c);
-  const int g = c->globals, n = g + 6 * problem.pose_count();
-  const auto full = full_covariance(*c);
-  const glm::dvec3 x(0.1, -0.3, 1.3);
-  std::vector<int> poses;
-  for (int k = 0; k < problem.pose_count(); ++k) poses.push_back(k);
+// J·C·Jᵀ of the pixel that `pixel_of` gives of a rig, J by central differences: pixels near 1000 with steps
+// of 1e-3 sigma leave some 1e-6.
+template <class PixelOf>
+Matrix covariance_by_differences(const testing::BoardTruth& t, const RigProblem& problem,
+                                 const RigCovariance& c, const PixelOf& pixel_of) {
+  const int g = c.globals, n = g + 6 * problem.pose_count();
+  const auto full = full_covariance(c);
   Matrix j(2, n);
   for (int i = 0; i < n; ++i) {
     const double h = 1e-3 * std::sqrt(full[i * n + i]);
@@ -75,16 +71,52 @@ TEST(RigCovariance, PredictedPixelsAreTheDerivativeOfCarriedOnes) {
       step[i] = side ? h : -h;
       const BoardRig there =
           moved(t.rig, problem.columns, {step.begin(), step.begin() + g}, {step.begin() + g, step.end()});
-      at[side] = *carried_pixel(problem.lenses[1], t.rig, there, poses, 1, x);
+      at[side] = pixel_of(there);
     }
     j(0, i) = (at[1].x - at[0].x) / (2 * h), j(1, i) = (at[1].y - at[0].y) / (2 * h);
   }
-  const Matrix expected = j * Eigen::Map<const Matrix>(full.data(), n, n) * j.transpose();
-  const auto p = pixel_covariance(problem, t.rig, *c, 1, x);
-  ASSERT_TRUE(p);  // central differences of pixels near 1000 with steps of 1e-3 sigma: some 1e-6
+  return j * Eigen::Map<const Matrix>(full.data(), n, n) * j.transpose();
+}
+
+void expect_covariance(const std::optional<glm::dvec3>& p, const Matrix& expected) {
+  ASSERT_TRUE(p);
   EXPECT_NEAR(p->x / expected(0, 0), 1, 1e-4);
   EXPECT_NEAR(p->z / expected(1, 1), 1, 1e-4);
   EXPECT_NEAR(p->y, expected(0, 1), 1e-4 * expected(0, 0));
+}
+
+TEST(RigCovariance, PredictedPixelsAreTheDerivativeOfCarriedOnes) {
+  auto random = testing::generator();
+  const auto t = testing::board_truth(usual_scene(), random);
+  const RigProblem problem(t.capture, t.model);
+  const auto c = testing::true_covariance(t);
+  ASSERT_TRUE(c);
+  const glm::dvec3 x(0.1, -0.3, 1.3);
+  std::vector<int> poses;
+  for (int k = 0; k < problem.pose_count(); ++k) poses.push_back(k);
+  expect_covariance(pixel_covariance(problem, t.rig, *c, 1, x),
+                    covariance_by_differences(t, problem, *c, [&](const BoardRig& there) {
+                      return *carried_pixel(problem.lenses[1], t.rig, there, poses, 1, x);
+                    }));
+}
+
+// A point that stays in the camera's frame: boards have no part in it.
+TEST(RigCovariance, PixelsOfTheCamerasFrameAreTheDerivativeOfProjectedOnes) {
+  auto random = testing::generator();
+  const auto t = testing::board_truth(usual_scene(), random);
+  const RigProblem problem(t.capture, t.model);
+  const auto c = testing::true_covariance(t);
+  ASSERT_TRUE(c);
+  const glm::dvec3 x(0.1, -0.3, 1.3), x_camera = apply(inverse(t.rig.devices[1].device_from_camera), x);
+  expect_covariance(pixel_covariance_in_camera(problem, t.rig, *c, 1, x),
+                    covariance_by_differences(t, problem, *c, [&](const BoardRig& there) {
+                      double pixel[2];
+                      const RigDevice& d = there.devices[1];
+                      EXPECT_TRUE(problem.lenses[1].project(
+                          d.parameters, apply(d.device_from_camera, x_camera), pixel, nullptr, nullptr));
+                      return glm::dvec2(pixel[0], pixel[1]);
+                    }));
+  EXPECT_FALSE(pixel_covariance_in_camera(problem, t.rig, *c, 1, {0, 0, -1}));
 }
 
 TEST(RigCovariance, TwoHundredSolvesAgree) {
