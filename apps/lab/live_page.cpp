@@ -1,10 +1,12 @@
 #include "apps/lab/live_page.h"
 
 #include "apps/lab/matrices.h"
-#include "apps/lab/simulation.h"
+#include "apps/lab/report/thumbnails.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+
+#include <bit>
 
 namespace laterna {
 
@@ -12,20 +14,20 @@ extern const char live_script[], live_style[];  // made by the build of apps/liv
 
 namespace {
 
-// The shortest decimal that single precision reads as this number.
-double shortest(double x) { return std::stod(fmt::format("{}", float(x))); }
+static_assert(std::endian::native == std::endian::little, "the page reads bytes as they stand here");
+
+template <class T>
+std::string base64_of(const std::vector<T>& values) {
+  return base64({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)});
+}
 
 nlohmann::json mesh_json(const Object& object) {
-  auto positions = nlohmann::json::array(), triangles = nlohmann::json::array();
-  for (const glm::dvec3& x : object.mesh.positions)
-    for (int i = 0; i < 3; ++i) positions.push_back(shortest(x[i]));
-  for (const glm::uvec3& t : object.mesh.triangles)
-    for (int i = 0; i < 3; ++i) triangles.push_back(t[i]);
+  const std::vector<glm::vec3> positions(object.mesh.positions.begin(), object.mesh.positions.end());
   return {{"name", object.name},
           {"albedo", object.albedo},
           {"world_from_object", json_of(object.world_from_object)},
-          {"positions", positions},
-          {"triangles", triangles}};
+          {"positions", base64_of(positions)},
+          {"triangles", base64_of(object.mesh.triangles)}};
 }
 
 // A coded picture changes along one axis only, so that a line tells all of it.
@@ -67,26 +69,36 @@ if (wanted) {
 
 }  // namespace
 
-nlohmann::json live_json(const Scene& scene, const std::string& name) {
+nlohmann::json live_json(const Scene& scene, const SceneRays& rig, const std::string& name) {
   StageTimes times;
-  const SceneRays rig = make_rig(scene, times);
-  const Projector& projector = scene.projectors[0];
   nlohmann::json data = matrices_json(scene);
   data["name"] = name;
-  data["flux_lm"] = projector.flux_lm;
   data["ambient_lx"] = scene.ambient_lx;
-  data["saturation_cd_per_m2"] = saturation_cd_per_m2(scene, rig, 0, 0, times);
   data["texture_from_clip"] = json_of(texture_from_clip());
+  data["left_out"] = live_omissions(scene);
   data["switches"] = {{"in_front", true},
-                      {"border", scene.effects.border && projector.border == Border::black},
                       {"back_face", scene.effects.back_face},
                       {"shadow", scene.effects.shadow},
-                      {"irradiance", scene.effects.irradiance},
-                      {"bilinear", projector.lookup == Lookup::bilinear}};
+                      {"irradiance", scene.effects.irradiance}};
+  for (std::size_t p = 0; p < scene.projectors.size(); ++p) {
+    const Projector& projector = scene.projectors[p];
+    data["projectors"][p].update(
+        {{"flux_lm", projector.flux_lm},
+         {"border", scene.effects.border && projector.border == Border::black},
+         {"bilinear", projector.lookup == Lookup::bilinear},
+         {"patterns", patterns_json({scene.patterns, projector.device.intrinsics.size})}});
+    for (std::size_t c = 0; c < scene.cameras.size(); ++c)
+      data["cameras"][c]["saturation_cd_per_m2"].push_back(
+          saturation_cd_per_m2(scene, rig, int(c), int(p), times));
+  }
   data["meshes"] = nlohmann::json::array();
   for (const Object& object : scene.objects) data["meshes"].push_back(mesh_json(object));
-  data["patterns"] = patterns_json({scene.patterns, projector.device.intrinsics.size});
   return data;
+}
+
+nlohmann::json live_json(const Scene& scene, const std::string& name) {
+  StageTimes times;
+  return live_json(scene, make_rig(scene, times), name);
 }
 
 std::string live_page(const nlohmann::json& data) {
@@ -103,9 +115,11 @@ std::string live_page(const nlohmann::json& data) {
 std::string live_omissions(const Scene& scene) {
   std::string left_out;
   const auto add = [&](const std::string& what) { left_out += (left_out.empty() ? "" : ", ") + what; };
-  if (scene.projectors.size() + scene.cameras.size() > 2) add("all but the first camera and projector");
-  for (const Device* device : {&scene.projectors[0].device, &scene.cameras[0].device})
-    if (!is_pinhole(device->lens)) add("the lens of " + device->name);
+  const auto add_lens = [&](const Device& device) {
+    if (!is_pinhole(device.lens)) add("the lens of " + device.name);
+  };
+  for (const Projector& projector : scene.projectors) add_lens(projector.device);
+  for (const Camera& camera : scene.cameras) add_lens(camera.device);
   for (const Object& object : scene.objects)
     if (object.albedo_map) add("the albedo map of " + object.name);
   constexpr Effects none{};

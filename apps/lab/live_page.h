@@ -2,7 +2,7 @@
 // move. Its script is apps/live/src, joined into one text by the build.
 #pragma once
 
-#include "sim/scene.h"
+#include "apps/lab/simulation.h"
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -11,17 +11,21 @@
 namespace laterna {
 
 /// What the page draws: matrices_json() of the devices and beside it
-///   "name" text, "flux_lm" (of the first projector), "ambient_lx", "saturation_cd_per_m2" (at which the
-///   picture is white; with automatic exposure from the scene's own light), "texture_from_clip" 4×4;
-///   "switches": {"in_front", "border", "back_face", "shadow", "irradiance", "bilinear"}: true or false;
-///   "meshes": [{"name", "albedo", "world_from_object": 4×4, "positions": [x, y, z, …] in single precision,
-///     "triangles": [three indices, …]}];
-///   "patterns": [{"name", "axis": 0 or 1, "values": two hexadecimal digits for each column or row}] of a
-///   coded
-///     sequence, else empty.
-/// Only the first camera and the first projector are drawn, without lenses and without effects but those
-/// switches. Throws InputError where the scene has no camera or no projector.
+///   "name" text, "ambient_lx", "texture_from_clip" 4×4, "left_out": live_omissions();
+///   "switches": {"in_front", "back_face", "shadow", "irradiance"}: true or false;
+///   "meshes": [{"name", "albedo", "world_from_object": 4×4, "positions": x, y, z, … as 32-bit floats and
+///     "triangles": three indices each as 32-bit integers, little endian, in base64}];
+/// of each camera "saturation_cd_per_m2": by projector, at which its picture is white (with automatic
+/// exposure
+///   from the scene's own light);
+/// of each projector "flux_lm", "border" and "bilinear": true or false, "patterns": [{"name", "axis": 0 or 1,
+///   "values": two hexadecimal digits for each column or row}] of a coded sequence, else empty.
+/// One camera sees the light of one projector, which the page lets choose, without lenses and without effects
+/// but those switches. Throws InputError where the scene has no camera or no projector.
 nlohmann::json live_json(const Scene& scene, const std::string& name);
+
+/// The same with the scene's rays at hand.
+nlohmann::json live_json(const Scene& scene, const SceneRays& rig, const std::string& name);
 
 /// The page. Nothing is loaded from elsewhere. Opened with #picture=K, or #picture=K&keys=… after those keys,
 /// it holds, in <pre id="picture">, the camera's picture of slide K (0: white; patterns come last): per

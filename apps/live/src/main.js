@@ -20,16 +20,22 @@ const deviceOf = (device) => ({
   size: device.size,
 });
 
-/** The scene as it was written. */
-function initialState(scene) {
+/** The scene as it was written: camera `c` sees the light of projector `p`. */
+function initialState(scene, c, p) {
+  const { flux_lm, border, bilinear } = scene.projectors[p];
   return {
-    camera: deviceOf(scene.cameras[0]),
-    projector: deviceOf(scene.projectors[0]),
+    camera: deviceOf(scene.cameras[c]),
+    projector: deviceOf(scene.projectors[p]),
+    flux_lm,
+    saturation_cd_per_m2: scene.cameras[c].saturation_cd_per_m2[p],
     ...scene.switches,
+    border,
+    bilinear,
     lighting: false,
     frustum: false,
     slide: 0,
     moves: "projector",
+    chosen: { camera: c, projector: p },
   };
 }
 
@@ -75,22 +81,40 @@ const deviceKeys = {
 
 // Keys that a control under the cursor needs itself.
 const hasOwnUse = (control, key) =>
-  control.matches("select, input[type=range], input[type=file]") || (control.matches("input[type=radio]") && key.startsWith("Arrow"));
+  control.matches("select, textarea, input[type=text], input[type=range], input[type=file]") || (control.matches("input[type=radio]") && key.startsWith("Arrow"));
 
 class LiveView {
-  constructor(scene, parent) {
+  constructor(scene, parent, keysFrom) {
     this.scene = scene;
-    this.state = initialState(scene);
-    const [width, height] = scene.cameras[0].size;
-    this.canvas = element("canvas", { width, height, tabIndex: 0 });
+    this.keysFrom = keysFrom;
+    this.state = initialState(scene, 0, 0);
+    this.canvas = element("canvas", { tabIndex: 0, ariaLabel: "What the camera sees" });
     const gl = this.canvas.getContext("webgl2", { antialias: false, preserveDrawingBuffer: true });
     if (!gl) throw new Error("this browser has no WebGL2");
     this.renderer = new Renderer(gl, scene);
-    this.slides = slides(scene, scene.projectors[0].size);
     this.step = 0.01 * Math.hypot(...scene.cameras[0].projector_from_world.map((row) => row[3]).slice(0, 3));
     parent.append(this.canvas, this.panel());
     this.listen();
-    this.setSlide(0);
+    this.choose(0, 0);
+  }
+
+  /** Camera c sees the light of projector p, both where the scene has them; the slide stays where there is such a one. */
+  choose(c, p) {
+    const { slide, moves } = this.state;
+    Object.assign(this.state, initialState(this.scene, c, p), { moves });
+    [this.canvas.width, this.canvas.height] = this.state.camera.size;
+    this.slides = slides(this.scene.projectors[p]);
+    this.choice.replaceChildren(...this.slides.map((s) => element("option", {}, s.name)));
+    this.devices.camera.selectedIndex = c;
+    this.devices.projector.selectedIndex = p;
+    return this.setSlide(Math.min(slide, this.slides.length - 1));
+  }
+
+  // The camera or projector that comes after the chosen one.
+  chooseNext(kind) {
+    const chosen = { ...this.state.chosen };
+    chosen[kind] = (chosen[kind] + 1) % this.devices[kind].length;
+    return this.choose(chosen.camera, chosen.projector);
   }
 
   panel() {
@@ -118,11 +142,18 @@ class LiveView {
       },
     });
     this.fovText = element("output", {});
-    this.choice = element(
-      "select",
-      { onchange: () => this.setSlide(this.choice.selectedIndex) },
-      ...this.slides.map((s) => element("option", {}, s.name)),
+    this.choice = element("select", { onchange: () => this.setSlide(this.choice.selectedIndex) });
+    this.devices = Object.fromEntries(
+      ["camera", "projector"].map((kind) => [
+        kind,
+        element(
+          "select",
+          { onchange: () => this.choose(this.devices.camera.selectedIndex, this.devices.projector.selectedIndex) },
+          ...this.scene[`${kind}s`].map((device) => element("option", {}, device.name)),
+        ),
+      ]),
     );
+    const several = ["camera", "projector"].filter((kind) => this.devices[kind].length > 1);
     const file = element("input", { type: "file", accept: "image/*", onchange: () => this.showFile(file.files[0]) });
     const boxes = switches.map(([name, key, text]) => {
       const input = element("input", { type: "checkbox", onchange: () => this.set(name, input.checked) });
@@ -132,6 +163,7 @@ class LiveView {
     return element(
       "form",
       { onsubmit: (event) => event.preventDefault() },
+      ...several.map((kind) => labelled(`${kind} (${kind === "camera" ? "k" : "j"} for the next)`, this.devices[kind])),
       element("fieldset", {}, element("legend", {}, "Moves and turns"), ...moves),
       labelled("vertical field of view ", this.fov),
       this.fovText,
@@ -166,7 +198,7 @@ class LiveView {
       },
       { passive: false },
     );
-    document.addEventListener("keydown", (event) => {
+    this.keysFrom.addEventListener("keydown", (event) => {
       if (event.ctrlKey || event.altKey || event.metaKey || hasOwnUse(event.target, event.key)) return;
       if (this.key(event.key)) event.preventDefault();
     });
@@ -181,6 +213,7 @@ class LiveView {
     else if (key === "c" || key === "p") return this.set("moves", key === "c" ? "camera" : "projector");
     else if (key === "m" || key === "o")
       return this.setSlide((this.state.slide + (key === "m" ? 1 : this.slides.length - 1)) % this.slides.length);
+    else if (key === "k" || key === "j") return this.chooseNext(key === "k" ? "camera" : "projector");
     else if (key === "r") return this.reset();
     else return false;
     return this.changed();
@@ -193,9 +226,7 @@ class LiveView {
   }
 
   reset() {
-    const { slide, moves } = this.state;
-    Object.assign(this.state, initialState(this.scene), { moves });
-    return this.setSlide(slide);
+    return this.choose(this.state.chosen.camera, this.state.chosen.projector);
   }
 
   setSlide(index) {
@@ -233,4 +264,5 @@ class LiveView {
   }
 }
 
-export const show = (scene, parent) => new LiveView(scene, parent);
+/** Builds the view into `parent`; keys act where `keysFrom` hears them. */
+export const show = (scene, parent, keysFrom = document) => new LiveView(scene, parent, keysFrom);

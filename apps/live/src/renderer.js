@@ -32,12 +32,21 @@ function attribute(gl, index, values) {
   gl.enableVertexAttribArray(index);
 }
 
+const bytesOf = (base64) => Uint8Array.from(atob(base64), (c) => c.charCodeAt(0)).buffer;
+
+/** A mesh with its numbers as arrays. */
+const unpacked = (mesh) => ({
+  ...mesh,
+  positions: new Float32Array(bytesOf(mesh.positions)),
+  triangles: new Uint32Array(bytesOf(mesh.triangles)),
+});
+
 // Three vertices for each triangle, with its flat normal in the world, towards its front side.
 function upload(gl, mesh) {
   const positions = new Float32Array(mesh.triangles.length * 3),
     normals = new Float32Array(positions.length);
-  const corner = (t, i) => mesh.positions.slice(3 * mesh.triangles[3 * t + i], 3 * mesh.triangles[3 * t + i] + 3);
-  const world = (x) => apply(mesh.world_from_object, x).slice(0, 3);
+  const corner = (t, i) => mesh.positions.subarray(3 * mesh.triangles[3 * t + i], 3 * mesh.triangles[3 * t + i] + 3);
+  const world = (x) => apply(mesh.world_from_object, [...x]).slice(0, 3);
   const mirrored = determinant(mesh.world_from_object) < 0;
   for (let t = 0; t < mesh.triangles.length / 3; ++t) {
     const corners = [corner(t, 0), corner(t, 1), corner(t, 2)],
@@ -86,8 +95,8 @@ export class Renderer {
     this.depth = program(gl, depthShader);
     this.light = program(gl, lightShader);
     this.line = program(gl, lineShader);
-    this.objects = scene.meshes.map((mesh) => ({ mesh, ...upload(gl, mesh) }));
-    this.points = scene.meshes.flatMap(corners);
+    this.objects = scene.meshes.map(unpacked).map((mesh) => ({ mesh, ...upload(gl, mesh) }));
+    this.points = this.objects.flatMap(({ mesh }) => corners(mesh));
     this.makeShadowMap();
     this.slide = gl.createTexture();
     this.lines = { array: gl.createVertexArray(), buffer: gl.createBuffer() };
@@ -168,7 +177,7 @@ export class Renderer {
 
   /**
    * Draws into `frame` (null: the page). `state`: camera and projector, each { view, clip, size }, where clip holds
-   * the first two rows and the last of P; and the switches. T = B·P·V·M is composed in double.
+   * the first two rows and the last of P; flux_lm, saturation_cd_per_m2 and the switches. T = B·P·V·M is composed in double.
    */
   draw(state, frame, width, height, forPeople) {
     const gl = this.gl,
@@ -186,7 +195,7 @@ export class Renderer {
     gl.useProgram(this.light.made);
     this.setSwitches(state, forPeople);
     // Focal lengths in pixels times flux per pixel: flux·P00·P11/4, for each steradian-like unit of (x/z, y/z).
-    const white = (scene.flux_lm * projector.clip[0][0] * projector.clip[1][1]) / 4 / Math.PI / scene.saturation_cd_per_m2;
+    const white = (state.flux_lm * projector.clip[0][0] * projector.clip[1][1]) / 4 / Math.PI / state.saturation_cd_per_m2;
     this.drawObjects((mesh) => {
       const m = mesh.world_from_object;
       for (const [name, matrix] of [
@@ -197,7 +206,7 @@ export class Renderer {
       ])
         gl.uniformMatrix4fv(this.light.at(name), false, floats(matrix));
       gl.uniform1f(this.light.at("white"), white * mesh.albedo);
-      gl.uniform1f(this.light.at("ambient"), (scene.ambient_lx * mesh.albedo) / Math.PI / scene.saturation_cd_per_m2);
+      gl.uniform1f(this.light.at("ambient"), (scene.ambient_lx * mesh.albedo) / Math.PI / state.saturation_cd_per_m2);
     });
     if (state.frustum && forPeople) this.drawFrustum(projector, cameraClip);
   }

@@ -25,7 +25,7 @@ function pattern(size, { axis, values }) {
 }
 
 /** A list of { name, picture() }. */
-export function slides(scene, size) {
+export function slides({ size, patterns }) {
   const flashlight = spot(size, 0.45, 3),
     coloured = spot(size, 0.45, 12);
   const tints = [
@@ -43,6 +43,6 @@ export function slides(scene, size) {
         slide(size, (u, v) => tints[2 * (v > size[1] / 2) + (u > size[0] / 2)].map((c) => c * coloured(u, v))),
     },
     { name: "chequers", picture: () => slide(size, (u, v) => grey(((u >> 6) ^ (v >> 6)) & 1 ? 255 : 20)) },
-    ...scene.patterns.map((p) => ({ name: `pattern: ${p.name}`, picture: () => pattern(size, p) })),
+    ...patterns.map((p) => ({ name: `pattern: ${p.name}`, picture: () => pattern(size, p) })),
   ];
 }
