@@ -1,6 +1,7 @@
 #include "apps/lab/roundtrip_folder.h"
 
 #include "apps/lab/decode_folder.h"
+#include "apps/lab/live_page.h"
 #include "apps/lab/report/thumbnails.h"
 #include "apps/lab/report/trial_figures.h"
 #include "apps/lab/summary_picture.h"
@@ -151,7 +152,8 @@ void write_results(const Scene& scene, const std::string& scene_name, const Trac
   write_file(root / "estimate.json", estimates_text(estimates));
   write_file(root / "result.json", trial_json(scene, out.outcomes, out.times).dump(2) + "\n");
   write_file(root / "figures.json", figures_json(scene, traced, kept, out.outcomes).dump() + "\n");
-  out.files.insert(out.files.end(), {"estimate.json", "result.json", "figures.json"});
+  write_file(root / "live.json", live_json(scene, traced, scene_name).dump() + "\n");
+  out.files.insert(out.files.end(), {"estimate.json", "result.json", "figures.json", "live.json"});
 }
 
 }  // namespace

@@ -107,6 +107,31 @@ async function rigTurns(page) {
   assert.notEqual(turned, await picture());
 }
 
+// Nothing is drawn before it is asked for; then the picture follows the keys, which act in the view alone.
+async function liveStarts(page) {
+  assert.equal((await page.$$("#live canvas")).length, 0);
+  await page.focus("#live button");
+  await page.keyboard.press("Enter");
+  await page.waitForSelector("#live canvas");
+  const picture = async () => {
+    await page.waitForTimeout(200);
+    return page.$eval("#live canvas", (canvas) => {
+      const copy = Object.assign(document.createElement("canvas"), { width: 100, height: 62 }),
+        context = copy.getContext("2d");
+      context.drawImage(canvas, 0, 0, 100, 62);
+      return [...context.getImageData(0, 0, 100, 62).data].filter((_, i) => i % 4 === 1);
+    });
+  };
+  const before = await picture();
+  assert.ok(before.filter((level) => level > 100).length > 500, "the live view is dark");
+  await page.keyboard.press("ArrowLeft");
+  const turned = await picture();
+  assert.notDeepEqual(before, turned);
+  await page.evaluate(() => document.querySelector("#main").focus());
+  await page.keyboard.press("ArrowLeft");
+  assert.deepEqual(turned, await picture());
+}
+
 // By the keyboard: a condition in the table behind the map, then its page with the picture and the command.
 async function cellOpens(page, data) {
   const index = data.atlas.cells.findIndex((cell) => cell.kind === "pictures"),
@@ -174,13 +199,14 @@ async function darkIsDark(page) {
 async function wholePage(page, data) {
   await open(page, "page.html");
   const ids = await page.$$eval("main > section", (all) => all.map((e) => e.id));
-  assert.deepEqual(ids, ["summary", "pictures", "rig", "residuals", "projection", "board-rig", "board", "chart", "atlas"]);
+  assert.deepEqual(ids, ["summary", "pictures", "rig", "residuals", "projection", "live", "board-rig", "board", "chart", "atlas"]);
   await numbersEqual(page, data);
   await figuresDraw(page);
   await readable(page);
   await sliderMoves(page);
   await rigTurns(page);
   await cellOpens(page, data);
+  await liveStarts(page);
   if (screenshots) await keep(page, "light.png");
   await darkIsDark(page);
   if (screenshots) await keep(page, "dark.png");

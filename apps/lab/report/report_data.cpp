@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::size_t most_bytes = std::size_t{256} << 20;
+constexpr std::size_t most_bytes = std::size_t{256} << 20, most_live_bytes = std::size_t{8} << 20;
 
 Json read_json(const fs::path& file) {
   try {
@@ -41,11 +41,28 @@ void expect_keys(const Json& json, const fs::path& file, const std::vector<const
       throw InputError(fmt::format("{}: has no key \"{}\"", file.string(), key));
 }
 
+// The scene for the live view; meshes that would make the page too large are left to a page of their own.
+void add_live(const fs::path& folder, Json& data) {
+  const fs::path file = folder / "live.json";
+  if (!fs::exists(file)) return;
+  if (fs::file_size(file) > most_live_bytes) {
+    data["live_left_out"] = fmt::format(
+        "The scene takes {:.0f} MB, more than belongs on this page: \"laterna live\" writes a page of its "
+        "own.",
+        double(fs::file_size(file)) / 1e6);
+    return;
+  }
+  data["live"] = read_json(file);
+  expect_keys(data["live"], file,
+              {"name", "meshes", "cameras", "projectors", "switches", "texture_from_clip"});
+}
+
 void add_roundtrip(const fs::path& folder, Json& data) {
   data["result"] = read_json(folder / "result.json");
   expect_keys(data["result"], folder / "result.json", {"projectors", "seconds"});
   for (const Json& projector : data["result"]["projectors"])
     expect_keys(projector, folder / "result.json", {"name", "status", "reason", "volume_error_px"});
+  add_live(folder, data);
   if (!fs::exists(folder / "figures.json")) return;
   Json figures = read_json(folder / "figures.json");
   expect_keys(figures, folder / "figures.json", {"rig", "points", "residuals", "projections", "views"});
@@ -95,7 +112,9 @@ void add_folder(const fs::path& folder, Json& data) {
   if (fs::exists(folder / "manifest.json")) add_capture(folder, data);
   if (fs::exists(folder / "atlas.json") && fs::exists(folder / "cells.json")) add_atlas(folder, data);
   for (const fs::path& file : json_files(folder))
-    if (file.filename() != "cells.json" && file.filename() != "figures.json") add_file(file, data);
+    if (file.filename() != "cells.json" && file.filename() != "figures.json" &&
+        file.filename() != "live.json")
+      add_file(file, data);
 }
 
 std::string title_of(const fs::path& path) {

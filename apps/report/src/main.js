@@ -8,6 +8,7 @@ import { projections } from "./projection.js";
 import { board } from "./board.js";
 import { chart } from "./chart.js";
 import { atlas } from "./atlas.js";
+import { live } from "./live.js";
 import css from "./page.css";
 
 const data = JSON.parse(document.getElementById("data").textContent);
@@ -19,6 +20,7 @@ const sections = [
   figures && rig,
   figures?.residuals.length && residuals,
   figures?.projections.length && projections,
+  (data.live || data.live_left_out) && live,
   data.board?.cameras.length && data.board.poses.length && boardRig,
   data.board && board,
   data.chart && chart,
