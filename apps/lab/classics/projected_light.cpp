@@ -113,7 +113,8 @@ void show_fov(const std::filesystem::path& file, ClassicResult& result) {
   result.pictures.push_back({"projected_light_fov", side_by_side(panels, 3)});
 }
 
-Canvas in_colour(const ClassicDemo& demo, const glm::dvec3& colour) {
+/// The core's picture with light of a colour on white ambient light.
+Image<glm::vec3> in_colour(const ClassicDemo& demo, const glm::dvec3& colour) {
   const Image<double> picture = demo.core();
   const double dark = demo.scene.ambient_lx / demo.full_lx;
   Image<glm::vec3> light(picture.width, picture.height);
@@ -121,7 +122,35 @@ Canvas in_colour(const ClassicDemo& demo, const glm::dvec3& colour) {
     const double from_ambient = std::min(picture.values[p], dark);
     light.values[p] = glm::vec3(glm::dvec3(from_ambient) + colour * (picture.values[p] - from_ambient));
   }
-  return colour_canvas(light, 1);
+  return light;
+}
+
+/// Angle from the projector's axis of what each pixel sees; NaN where it is not lit.
+std::vector<double> angles_rad(const ClassicDemo& demo) {
+  const auto points = points_world(demo.view.surface, demo.scene);
+  const Rigid& pose = demo.projector().device.device_from_world;
+  std::vector<double> angles(points.values.size(), std::numeric_limits<double>::quiet_NaN());
+  for (std::size_t p = 0; p < angles.size(); ++p) {
+    if (!demo.view.lights[0].lit(p)) continue;
+    const glm::dvec3 x = apply(pose, points.values[p]);
+    angles[p] = std::atan2(std::hypot(x.x, x.y), x.z);
+  }
+  return angles;
+}
+
+/// Of the three channels, against colour·cosⁿθ of the light that the same projector gives without a spot.
+double distance_from_law(const Image<glm::vec3>& spot, const ClassicDemo& open,
+                         const std::vector<double>& angles, const glm::dvec3& colour, double exponent) {
+  const Image<double> bare = open.core();
+  const double dark = open.scene.ambient_lx / open.full_lx;
+  double most = 0;
+  for (std::size_t p = 0; p < angles.size(); ++p) {
+    if (std::isnan(angles[p])) continue;
+    const double light = (bare.values[p] - dark) * std::pow(std::cos(angles[p]), exponent);
+    for (int channel = 0; channel < 3; ++channel)
+      most = std::max(most, std::abs(spot.values[p][channel] - (dark + colour[channel] * light)));
+  }
+  return most;
 }
 
 void show_spots(const std::filesystem::path& file, ClassicResult& result) {
@@ -129,19 +158,20 @@ void show_spots(const std::filesystem::path& file, ClassicResult& result) {
                                          "patterns.kind=\"gray\"",
                                          "projector.spotlight={cutoff_deg=16, exponent=20}"};
   const ClassicDemo flashlight(file, spot);
+  const glm::dvec3 colour(1, 0.45, 0.1);
+  const Image<glm::vec3> coloured = in_colour(flashlight, colour);
   result.pictures.push_back(
-      {"projected_light_spots", side_by_side({{"flashlight", shown(flashlight.core())},
-                                              {"coloured spot", in_colour(flashlight, {1, 0.45, 0.1})}},
-                                             2)});
+      {"projected_light_spots",
+       side_by_side({{"flashlight", shown(flashlight.core())}, {"coloured spot", colour_canvas(coloured, 1)}},
+                    2)});
+  const std::vector<double> angles = angles_rad(flashlight);
   double furthest = 0;
-  const auto points = points_world(flashlight.view.surface, flashlight.scene);
-  const Rigid& pose = flashlight.projector().device.device_from_world;
-  for (std::size_t p = 0; p < points.values.size(); ++p)
-    if (flashlight.view.lights[0].lit(p)) {
-      const glm::dvec3 x = pose.rotation * points.values[p] + pose.translation;
-      furthest = std::max(furthest, glm::degrees(std::atan2(std::hypot(x.x, x.y), x.z)));
-    }
-  result.figures.push_back({"flashlight of 16°: widest lit angle", furthest, "deg", 0.01});
+  for (const double angle : angles) furthest = std::fmax(furthest, glm::degrees(angle));
+  const ClassicDemo open(file, {"effects.slide=false", "patterns.kind=\"gray\""});
+  result.figures.insert(result.figures.end(),
+                        {{"flashlight of 16°: widest lit angle", furthest, "deg", 0.01},
+                         {"coloured spot to colour·cos²⁰θ of the open light, three channels, greatest",
+                          distance_from_law(coloured, open, angles, colour, 20), "", 1e-6}});
 }
 
 double light_sum(const ClassicDemo& demo, const Image<double>& picture) {
