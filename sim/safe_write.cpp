@@ -7,6 +7,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <csignal>
@@ -68,10 +69,19 @@ int write_all(int descriptor, std::string_view bytes) {
   return 0;
 }
 
-/// Waits until the disk has all; gives the file's size.
+/// Whether a file stands in a PendingFolder of this process, which syncs all of its files at the end.
+bool is_pending(const fs::path& path) {
+  const std::string suffix = ".partial-" + std::to_string(::getpid());
+  const fs::path folder = path.parent_path();
+  return std::any_of(folder.begin(), folder.end(), [&](const fs::path& part) {
+    return part.native().starts_with('.') && part.native().ends_with(suffix);
+  });
+}
+
+/// Waits until the disk has all, or leaves that to the pending folder; gives the file's size.
 std::size_t sync(const TemporaryFile& file, const fs::path& path) {
   struct stat written {};
-  if (::fsync(file.descriptor) != 0 || ::fstat(file.descriptor, &written) != 0)
+  if ((!is_pending(path) && ::fsync(file.descriptor) != 0) || ::fstat(file.descriptor, &written) != 0)
     refuse(path, reason_of(errno));
   return std::size_t(written.st_size);
 }
@@ -88,6 +98,20 @@ void sync_folder(const fs::path& folder) {
   if (descriptor < 0) return;
   ::fsync(descriptor);
   ::close(descriptor);
+}
+
+/// The same for all files below a folder, whose failures count.
+void sync_files(const fs::path& folder, const fs::path& final_path) {
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    if (entry.is_symlink()) continue;
+    if (entry.is_directory()) sync_folder(entry.path());
+    if (!entry.is_regular_file()) continue;
+    const int descriptor = ::open(entry.path().c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
+    if (descriptor < 0) refuse(final_path, reason_of(errno));
+    const int error = ::fsync(descriptor) == 0 ? 0 : errno;
+    ::close(descriptor);
+    if (error != 0) refuse(final_path, reason_of(error));
+  }
 }
 
 bool is_alive(pid_t process) { return ::kill(process, 0) == 0 || errno == EPERM; }
@@ -125,11 +149,17 @@ int rename_to_new(const fs::path& from, const fs::path& to) {
 
 }  // namespace
 
-void write_file(const fs::path& path, std::string_view bytes) {
+void write_file(const fs::path& path, std::string_view bytes) { write_file(path, {bytes}); }
+
+void write_file(const fs::path& path, std::initializer_list<std::string_view> parts) {
   TemporaryFile file(path);
-  if (const int error = write_all(file.descriptor, bytes)) refuse(path, reason_of(error));
-  if (const std::size_t arrived = sync(file, path); arrived != bytes.size())
-    refuse(path, fmt::format("{} bytes arrived, expected {}", arrived, bytes.size()));
+  std::size_t expected = 0;
+  for (const std::string_view bytes : parts) {
+    if (const int error = write_all(file.descriptor, bytes)) refuse(path, reason_of(error));
+    expected += bytes.size();
+  }
+  if (const std::size_t arrived = sync(file, path); arrived != expected)
+    refuse(path, fmt::format("{} bytes arrived, expected {}", arrived, expected));
   put_in_place(file, path);
 }
 
@@ -161,6 +191,7 @@ PendingFolder::~PendingFolder() {
 }
 
 void PendingFolder::commit() {
+  sync_files(temporary_, final_);
   sync_folder(temporary_);
   const int error = rename_to_new(temporary_, final_);
   if (error == EEXIST || error == ENOTEMPTY) refuse_existing(final_);

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <initializer_list>
 #include <string_view>
 
 namespace laterna {
@@ -11,8 +12,11 @@ namespace laterna {
 /// every write, fsync and close is checked, and so is the size; then the file is renamed, so that a reader
 /// sees the old file or the new one and never a part. Throws InputError, naming the path and the system's
 /// reason ("No space left on device"), and leaves no temporary file, where any of that fails or where `path`
-/// is there and is no regular file.
+/// is there and is no regular file. In a PendingFolder of this process the fsync is left to commit().
 void write_file(const std::filesystem::path& path, std::string_view bytes);
+
+/// The same of bytes in several parts, one after the other.
+void write_file(const std::filesystem::path& path, std::initializer_list<std::string_view> parts);
 
 /// The same for a library that writes a file itself: `fill` is given the temporary file's path, and throws
 /// where it fails.
@@ -36,8 +40,10 @@ class PendingFolder {
   /// Where to put the files until commit().
   const std::filesystem::path& path() const { return temporary_; }
 
-  /// Gives the folder its final name. Throws InputError where that has come to exist meanwhile: nothing is
-  /// ever replaced. At most once.
+  /// Waits until the disk has every file (fsync of each, when all are written: one by one as they come, they
+  /// would wait for the disk's journal again and again), then gives the folder its final name. Throws
+  /// InputError where the disk fails, or where that name has come to exist meanwhile: nothing is ever
+  /// replaced. At most once.
   void commit();
 
  private:

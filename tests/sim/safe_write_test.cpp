@@ -110,6 +110,12 @@ TEST(PendingFolder, AppearsWhenCommitted) {
   EXPECT_EQ(entries(folder.path()), 1u);
 }
 
+TEST(WriteFile, PartsStandOneBehindTheOther) {
+  const ScratchFolder folder;
+  write_file(folder / "file", {"ab", "", "cde"});
+  EXPECT_EQ(read_text(folder / "file"), "abcde");
+}
+
 TEST(PendingFolder, LeavesNothingWhereItIsNotCommitted) {
   const ScratchFolder folder;
   {

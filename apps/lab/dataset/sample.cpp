@@ -66,12 +66,12 @@ void write_maps(const Attempt& attempt, const View& view, const CapturedStack& p
   const std::string &camera = scene.cameras[view.camera].device.name,
                     &projector = scene.projectors[view.projector].device.name;
   const std::size_t height = std::size_t(view.light.height), width = std::size_t(view.light.width);
-  write_file(root / truth_file(camera, projector),
-             npy_bytes(truth_map(attempt.traced, view), {height, width, truth_channels.size()}));
+  write_npy(root / truth_file(camera, projector), truth_map(attempt.traced, view),
+            {height, width, truth_channels.size()});
   const std::vector<float> rows = correspondences(scene, view, pictures, step_px);
   write_picture(root / mask_file(camera, projector), both_see_mask(view.light));
-  write_file(root / correspondence_file(camera, projector),
-             npy_bytes(rows, {rows.size() / correspondence_columns.size(), correspondence_columns.size()}));
+  write_npy(root / correspondence_file(camera, projector), rows,
+            {rows.size() / correspondence_columns.size(), correspondence_columns.size()});
 }
 
 void fill_sample(const DatasetSpec& spec, const Attempt& attempt, const fs::path& root) {

@@ -2,7 +2,9 @@
 
 #include "calib/decode.h"
 #include "render/effects/apply_effects.h"
+#include "sim/parallel.h"
 
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -20,18 +22,24 @@ Image<std::uint8_t> both_see_mask(const LightMap& light) {
   return mask;
 }
 
-std::vector<float> truth_map(const Traced& traced, const View& view) {
+LargeVector<float> truth_map(const Traced& traced, const View& view) {
   const SurfaceMap& surface = traced.surfaces[view.camera];
   const PixelArray<glm::dvec3> normals = normals_world(surface, traced.rays);
-  std::vector<float> values;
-  values.reserve(normals.values.size() * truth_channels.size());
-  for (std::size_t i = 0; i < normals.values.size(); ++i) {
-    const glm::dvec3 n = normals.values[i];
-    for (const double value :
-         {view.light.u_px.values[i], view.light.v_px.values[i], surface.depth_m.values[i], n.x, n.y, n.z,
-          surface.hit(i) ? double(surface.object.values[i]) : -1.0})
-      values.push_back(float(value));
-  }
+  constexpr std::size_t channels = truth_channels.size();
+  LargeVector<float> values(normals.values.size() * channels);
+  parallel_for(std::size_t(normals.height), [&](std::size_t y) {
+    for (std::size_t i = y * normals.width; i < (y + 1) * normals.width; ++i) {
+      const glm::dvec3 n = normals.values[i];
+      const std::array<double, channels> of_pixel{view.light.u_px.values[i],
+                                                  view.light.v_px.values[i],
+                                                  surface.depth_m.values[i],
+                                                  n.x,
+                                                  n.y,
+                                                  n.z,
+                                                  surface.hit(i) ? double(surface.object.values[i]) : -1.0};
+      for (std::size_t c = 0; c < channels; ++c) values[i * channels + c] = float(of_pixel[c]);
+    }
+  });
   return values;
 }
 

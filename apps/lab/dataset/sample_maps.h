@@ -3,6 +3,7 @@
 
 #include "apps/lab/simulation.h"
 #include "sim/image.h"
+#include "sim/large_vector.h"
 
 #include <array>
 #include <vector>
@@ -20,7 +21,7 @@ inline constexpr std::array truth_channels{"projector_u", "projector_v", "depth_
 /// pixel (NaN where none), axial depth (NaN where nothing is seen), unit normal in the world (0 where nothing
 /// is seen), index of the mesh in the scene (-1: none). Uncompressed, since coding takes longer than the
 /// pictures do.
-std::vector<float> truth_map(const Traced& traced, const View& view);
+LargeVector<float> truth_map(const Traced& traced, const View& view);
 
 /// The columns of a correspondence table.
 inline constexpr std::array correspondence_columns{"camera_x",  "camera_y",  "true_u",   "true_v",
