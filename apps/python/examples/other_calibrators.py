@@ -151,8 +151,8 @@ def main():
         print(f"{name:<16}{found.K[0, 0]:>10.2f}{found.K[1, 2]:>10.2f}{errors[name].surface.rms:>12.3f}{errors[name].volume.rms:>12.3f}")
     predicted = own.as_dict()["predicted_volume_px"]
     print("laterna predicts", ", ".join(f"{value:.3f} px ({name})" for name, value in predicted.items()))
-    print("(errors above are of points in the camera's frame, which its own centre, a pixel off, turns by a pixel;")
-    print(" the first two predictions are of points that are fixed on the boards, and turn with it)")
+    print("(errors above are of points in the camera's frame, which its own centre, a pixel off, turns by a pixel:")
+    print(" camera_frame predicts them; the others are of points that are fixed on the boards, and turn with it)")
 
     joint = errors[f"laterna ({own.status})"].volume.rms
     # mrcal and Laterna maximise the same likelihood: they differ by what mrcal's outlier rejection drops.
