@@ -121,8 +121,9 @@ void add_board_words(CLI::App& command, BoardWords& words) {
                      "A printed board that stands elsewhere in every FOLDER; may be given several times: "
                      "chessboard,9x7,75mm (inner corners) or charuco,8x6,40mm,30mm,DICT_4X4_50 (squares) or "
                      "circles,7x5,30mm,15mm or acircles,4x11,20mm,15mm");
-  command.add_option("--camera", words.camera,
-                     "With --board: whose pictures are used, where there are several");
+  command.add_option(
+      "--camera", words.camera,
+      "With --board: whose pictures alone are used; all cameras are calibrated jointly without it");
   command
       .add_option(
           "--local-fit", words.local,
