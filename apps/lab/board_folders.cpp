@@ -33,14 +33,11 @@ bool holds_pictures(const fs::path& folder) {
                      [](const auto& entry) { return entry.is_regular_file() && is_picture(entry.path()); });
 }
 
-// The manifest's sequences of the one camera that is used.
+// The manifest's sequences of the cameras that are used.
 std::vector<CaptureSequence> sequences_of(const fs::path& folder, const BoardFolderOptions& options) {
   const CaptureManifest manifest = manifest_or_pictures(folder, options.patterns);
   std::set<std::string> cameras;
   for (const CaptureSequence& s : manifest.sequences) cameras.insert(s.camera);
-  if (options.camera.empty() && cameras.size() > 1)
-    throw InputError(fmt::format("{}: pictures by {} cameras ({}), expected --camera with one of them",
-                                 folder.string(), cameras.size(), fmt::join(cameras, ", ")));
   std::vector<CaptureSequence> chosen;
   for (const CaptureSequence& s : manifest.sequences)
     if (options.camera.empty() || s.camera == options.camera) chosen.push_back(s);
@@ -73,27 +70,34 @@ void expect_dense(const CaptureSequence& sequence, const fs::path& folder) {
 }
 
 /// One camera's pictures of one folder.
-struct Placement {
-  std::vector<DecodedSequence> sequences;
-  PrintPicture picture;
+struct BoardView {
+  std::string camera;
+  std::vector<DecodedSequence> sequences{};
+  PrintPicture picture{};
 };
 
-Placement read_placement(const fs::path& folder, const BoardFolderOptions& options, BoardFolders& result) {
-  Placement placement;
+BoardView& view_of(std::vector<BoardView>& views, const std::string& camera) {
+  const auto found =
+      std::find_if(views.begin(), views.end(), [&](const BoardView& v) { return v.camera == camera; });
+  return found == views.end() ? views.emplace_back(BoardView{camera}) : *found;
+}
+
+std::vector<BoardView> read_views(const fs::path& folder, const BoardFolderOptions& options,
+                                  BoardFolders& result) {
+  std::vector<BoardView> views;
   for (const CaptureSequence& sequence : sequences_of(folder, options)) {
     expect_dense(sequence, folder);
     const CapturedStack pictures = read_pictures(folder, sequence);
-    if (placement.sequences.empty()) placement.picture = print_picture(pictures);
-    placement.sequences.push_back(decode_sequence(folder, sequence, pictures, options.decode));
+    BoardView& view = view_of(views, sequence.camera);
+    if (view.sequences.empty()) view.picture = print_picture(pictures);
+    view.sequences.push_back(decode_sequence(folder, sequence, pictures, options.decode));
     const auto seen = [&](const std::string& what) {
       return fmt::format("{}, \"{}\": {}", folder.string(), sequence.projector, what);
     };
-    for (const std::string& flag : placement.sequences.back().report.flags)
-      result.warnings.push_back(seen(flag));
-    for (const std::string& doubt : placement.sequences.back().report.doubts)
-      result.doubts.push_back(seen(doubt));
+    for (const std::string& flag : view.sequences.back().report.flags) result.warnings.push_back(seen(flag));
+    for (const std::string& doubt : view.sequences.back().report.doubts) result.doubts.push_back(seen(doubt));
   }
-  return placement;
+  return views;
 }
 
 // Boards with markers first: they are not mistaken for others, but others are for them.
@@ -105,25 +109,76 @@ std::vector<int> in_order(const std::vector<PrintedBoard>& boards) {
   return order;
 }
 
-void sight(const fs::path& folder, const Placement& placement, PrintPicture& left, int board,
-           const BoardFolderOptions& options, BoardFolders& result) {
+// What one camera sees of a board that stands in pose `pose`.
+void sight(const fs::path& folder, const BoardView& view, const std::vector<FoundPoint>& found, int board,
+           int pose, const BoardFolderOptions& options, BoardFolders& result) {
   const PrintedBoard& printed = options.boards[std::size_t(board)];
-  const std::vector<FoundPoint> found = find_board(left, printed);
-  if (found.empty()) return;
-  cover_board(left, found);
   BoardCapture& capture = result.capture;
-  const int pose = capture.pose_count();
-  capture.pose_labels.push_back(pose);
-  BoardPlacement report{folder.string(), board, pose, placement.picture, found.size()};
-  add_camera_sightings(found, printed, 0, pose, capture.sightings);
-  for (const DecodedSequence& decoded : placement.sequences) {
+  const glm::ivec2 size(view.picture.mean.width, view.picture.mean.height);
+  const int camera = device_index(capture, view.camera, size, folder);
+  BoardPlacement report{folder.string(), view.camera, board, pose, view.picture, found.size()};
+  add_camera_sightings(found, printed, camera, pose, capture.sightings);
+  for (const DecodedSequence& decoded : view.sequences) {
     const CaptureSequence& s = decoded.sequence;
     const int device = device_index(capture, s.projector, s.projector_size, folder);
     report.projectors.push_back(
         {s.projector, add_projector_sightings(found, printed, decoded.map, device, pose, options.local,
-                                              capture.sightings)});
+                                              capture.sightings, 0.45, camera)});
   }
   result.placements.push_back(std::move(report));
+}
+
+// One board in the pictures of all cameras; `left` is what boards found before leave of each.
+void sight_by_all(const fs::path& folder, const std::vector<BoardView>& views,
+                  std::vector<PrintPicture>& left, int board, const BoardFolderOptions& options,
+                  BoardFolders& result) {
+  const int pose = result.capture.pose_count();
+  for (std::size_t v = 0; v < views.size(); ++v) {
+    const std::vector<FoundPoint> found = find_board(left[v], options.boards[std::size_t(board)]);
+    if (found.empty()) continue;
+    cover_board(left[v], found);
+    if (result.capture.pose_count() == pose) result.capture.pose_labels.push_back(pose);
+    sight(folder, views[v], found, board, pose, options, result);
+  }
+}
+
+// All devices of a folder, whether they see a board or not.
+void add_devices(const fs::path& folder, const std::vector<BoardView>& views, BoardCapture& capture) {
+  for (const BoardView& v : views) {
+    const glm::ivec2 size(v.picture.mean.width, v.picture.mean.height);
+    const int camera = device_index(capture, v.camera, size, folder);
+    capture.devices[std::size_t(camera)].is_camera = true;
+  }
+  for (const BoardView& v : views)
+    for (const DecodedSequence& s : v.sequences)
+      device_index(capture, s.sequence.projector, s.sequence.projector_size, folder);
+}
+
+// Cameras first, of them the one that found most boards.
+void put_cameras_first(BoardFolders& result) {
+  std::vector<BoardDevice>& devices = result.capture.devices;
+  const auto boards_of = [&](int d) {
+    return std::count_if(result.placements.begin(), result.placements.end(),
+                         [&](const BoardPlacement& p) { return p.camera == devices[std::size_t(d)].name; });
+  };
+  std::vector<int> order(devices.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto projectors = std::stable_partition(order.begin(), order.end(),
+                                                [&](int d) { return devices[std::size_t(d)].is_camera; });
+  const auto most =
+      std::max_element(order.begin(), projectors, [&](int a, int b) { return boards_of(a) < boards_of(b); });
+  std::rotate(order.begin(), most, most + 1);
+  std::vector<BoardDevice> sorted;
+  std::vector<int> place(order.size());
+  for (const int d : order) {
+    place[std::size_t(d)] = int(sorted.size());
+    sorted.push_back(devices[std::size_t(d)]);
+  }
+  devices = std::move(sorted);
+  for (Sighting& s : result.capture.sightings) {
+    s.device = place[std::size_t(s.device)];
+    if (s.read_at) s.read_at->device = place[std::size_t(s.read_at->device)];
+  }
 }
 
 }  // namespace
@@ -148,17 +203,17 @@ BoardFolders read_board_folders(const std::vector<fs::path>& folders, const Boar
   BoardFolders result;
   for (const fs::path& folder : placement_folders(folders)) {
     if (progress) progress(fmt::format("looking for boards in {}", folder.string()));
-    const Placement placement = read_placement(folder, options, result);
-    device_index(result.capture, placement.sequences.front().sequence.camera,
-                 {placement.picture.mean.width, placement.picture.mean.height}, folder);
-    for (const DecodedSequence& s : placement.sequences)
-      device_index(result.capture, s.sequence.projector, s.sequence.projector_size, folder);
+    const std::vector<BoardView> views = read_views(folder, options, result);
+    add_devices(folder, views, result.capture);
     const std::size_t before = result.placements.size();
-    PrintPicture left = placement.picture;
-    for (const int board : in_order(options.boards)) sight(folder, placement, left, board, options, result);
+    std::vector<PrintPicture> left;
+    for (const BoardView& v : views) left.push_back(v.picture);
+    for (const int board : in_order(options.boards))
+      sight_by_all(folder, views, left, board, options, result);
     if (result.placements.size() == before)
       result.warnings.push_back(folder.string() + ": no board was found");
   }
+  put_cameras_first(result);
   result.capture.extent = extent_of(result.capture.sightings);
   validate(result.capture);
   return result;

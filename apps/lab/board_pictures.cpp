@@ -112,12 +112,19 @@ Image<glm::u8vec3> placement_picture(const BoardFolders& folders, const BoardPla
       const auto grey = std::uint8_t(std::lround(255 * mean(x, y)));
       canvas.set(x, y, {grey, grey, grey});
     }
-  const int projectors = int(folders.capture.devices.size()) - 1, radius = std::max(2, mean.width / 320);
+  const BoardCapture& capture = folders.capture;
+  const int devices = int(capture.devices.size()), radius = std::max(2, mean.width / 320);
   const auto seen = sighted(folders.capture, placement.pose);
   for (const Sighting& s : folders.capture.sightings) {
-    if (s.device != 0 || folders.capture.pose_labels[std::size_t(s.pose)] != placement.pose) continue;
-    int read = 0;
-    for (int d = 1; d <= projectors; ++d) read += int(seen.contains({d, s.corner}));
+    if (capture.devices[std::size_t(s.device)].name != placement.camera ||
+        capture.pose_labels[std::size_t(s.pose)] != placement.pose)
+      continue;
+    int read = 0, projectors = 0;
+    for (int d = 1; d < devices; ++d) {
+      if (is_camera(capture, d)) continue;
+      ++projectors;
+      read += int(seen.contains({d, s.corner}));
+    }
     const Rgb colour = read == projectors ? Rgb{60, 220, 90}
                        : read > 0         ? Rgb{240, 210, 40}
                                           : Rgb{235, 60, 50};
@@ -134,8 +141,10 @@ void write_board_pictures(const std::filesystem::path& folder, const BoardFolder
   if (failed)
     throw InputError(
         fmt::format("{}: {}, expected a folder to write into", folder.string(), failed.message()));
+  const bool several = folders.capture.devices.size() > 1 && is_camera(folders.capture, 1);
   for (const BoardPlacement& p : folders.placements)
-    write_picture(folder / fmt::format("found_{:02}.png", p.pose), placement_picture(folders, p));
+    write_picture(folder / fmt::format("found_{:02}{}.png", p.pose, several ? "_" + p.camera : ""),
+                  placement_picture(folders, p));
   if (calibration.status == Status::refused) return;
   for (int d = 0; d < int(calibration.devices.size()); ++d)
     write_picture(folder / fmt::format("residuals_{}.png", calibration.devices[std::size_t(d)].name),

@@ -96,27 +96,42 @@ Json dropped_json(const BoardCalibration& c) {
   return dropped;
 }
 
-std::string ladder_text(const Ladder& ladder, const std::vector<Device>& devices) {
+// A column for each device.
+template <class Cell>
+std::string columns_text(std::size_t devices, const Cell& cell) {
+  std::string text;
+  for (std::size_t d = 0; d < devices; ++d) text += cell(d);
+  return text;
+}
+
+std::string rung_text(const Rung& rung) {
+  const std::size_t devices = rung.terms.size();
   std::string text = fmt::format(
-      "lens ladder; * is climbed\n    {:<18} {:<18} {:<4} {:>6} {:>6}   {:>8} {:>9} {:>6}  {}\n",
-      devices[0].name, devices.back().name, "bend", "fit px", "", "held-out", "± scatter", "gain/σ", "moved");
-  for (const Rung& rung : ladder.rungs) {
-    text += fmt::format("  {} {:<18} {:<18} {:<4} ", rung.chosen ? '*' : ' ', terms_text(rung.terms.front()),
-                        terms_text(rung.terms.back()), rung.bend ? "yes" : "no");
-    if (rung.fit_rms_px.empty()) {
-      text += "does not converge\n";
-      continue;
-    }
-    text += fmt::format("{:>6.3f} {:>6.3f}   ", rung.fit_rms_px.front(), rung.fit_rms_px.back());
-    if (rung.held_out.folds.empty())
-      text += fmt::format("{:>8} {:>9} {:>6}", "-", "-", "-");
-    else
-      text += fmt::format("{:>8.4f} {:>9.3f} {:>+6.1f}", rung.held_out.rms_px, rung.scatter_px,
-                          rung.gain_over_error);
-    text += "  " + rung.moved;
-    if (!rung.held_out.failed.empty()) text += fmt::format("  ({} folds fail)", rung.held_out.failed.size());
-    text += "\n";
-  }
+      "  {} {}{:<4}", rung.chosen ? '*' : ' ',
+      columns_text(devices, [&](std::size_t d) { return fmt::format("{:<18} ", terms_text(rung.terms[d])); }),
+      rung.bend ? "yes" : "no");
+  if (rung.fit_rms_px.empty()) return text + " does not converge\n";
+  text += columns_text(devices, [&](std::size_t d) { return fmt::format(" {:>6.3f}", rung.fit_rms_px[d]); });
+  if (rung.held_out.folds.empty())
+    text += fmt::format("   {:>8} {:>9} {:>6}", "-", "-", "-");
+  else
+    text += fmt::format("   {:>8.4f} {:>9.3f} {:>+6.1f}", rung.held_out.rms_px, rung.scatter_px,
+                        rung.gain_over_error);
+  text += "  " + rung.moved;
+  if (!rung.held_out.failed.empty()) text += fmt::format("  ({} folds fail)", rung.held_out.failed.size());
+  return text + "\n";
+}
+
+std::string ladder_text(const Ladder& ladder, const std::vector<Device>& devices) {
+  std::string text = "lens ladder; * is climbed\n    ";
+  text +=
+      columns_text(devices.size(), [&](std::size_t d) { return fmt::format("{:<18} ", devices[d].name); });
+  text +=
+      fmt::format("{:<4}{}   {:>8} {:>9} {:>6}  {}\n", "bend",
+                  columns_text(devices.size(),
+                               [](std::size_t d) { return fmt::format(" {:>6}", d == 0 ? "fit px" : ""); }),
+                  "held-out", "± scatter", "gain/σ", "moved");
+  for (const Rung& rung : ladder.rungs) text += rung_text(rung);
   return text;
 }
 
@@ -196,8 +211,8 @@ std::string dropped_text(const BoardCalibration& c) {
     text += fmt::format("dropped: pose {}, corner {}, {}: {:.2f} px off\n", c.dropped_poses[i],
                         c.dropped[i].corner, c.dropped_devices[i], c.dropped_residual_px[i]);
   if (!c.unused_poses.empty())
-    text += fmt::format("not used: pose {}: the camera sees fewer than 4 corners\n",
-                        fmt::join(c.unused_poses, ", "));
+    text += fmt::format("not used: pose {}: {} sees fewer than 4 corners\n", fmt::join(c.unused_poses, ", "),
+                        c.devices.empty() ? "the camera" : c.devices[0].name);
   return text;
 }
 
@@ -219,7 +234,7 @@ Json board_json(const BoardCalibration& c) {
     json["held_out_px"] = {{"rms", number(c.held_out().rms_px)}, {"folds", folds}};
   }
   for (std::size_t n = 0; n < c.devices.size(); ++n)
-    json[n == 0 ? "cameras" : "projectors"].push_back(device_json(c, n));
+    json[is_camera(c.ladder.fit.capture, int(n)) ? "cameras" : "projectors"].push_back(device_json(c, n));
   const glm::dvec2& bend = c.ladder.fit.adjustment.rig.bend;
   json["board_bend"] = {bend.x, bend.y};
   json["parameters"] = c.parameter_names;
@@ -257,6 +272,7 @@ void add_placements(Json& json, const BoardFolders& folders) {
                             {"points", r.reading.points},
                             {"median_residual_px", number(r.reading.median_residual_px)}});
     json["placements"].push_back({{"folder", p.folder},
+                                  {"camera", p.camera},
                                   {"board", p.board},
                                   {"pose", p.pose},
                                   {"points", p.points},
@@ -269,9 +285,9 @@ std::string placements_text(const BoardFolders& folders) {
   std::string text;
   if (!folders.placements.empty())
     text = fmt::format("{:<6} {:<28} {:>7}  {}\n", "pose", "folder", "points",
-                       "projector: points read, median residual of the local fits");
+                       "camera, projector: points read, median residual of the local fits");
   for (const BoardPlacement& p : folders.placements) {
-    text += fmt::format("{:<6} {:<28} {:>7} ", p.pose, p.folder, p.points);
+    text += fmt::format("{:<6} {:<28} {:>7}  {},", p.pose, p.folder, p.points, p.camera);
     for (const BoardPlacement::Reading& r : p.projectors)
       text += fmt::format(" {}: {}, {:.3f} px", r.projector, r.reading.points, r.reading.median_residual_px);
     text += "\n";

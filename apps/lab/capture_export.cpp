@@ -154,6 +154,10 @@ void export_corners(const fs::path& from, const fs::path& to, const CaptureExpor
   options.boards = {parse_board(what.board)};
   options.camera = what.camera;
   const BoardFolders folders = read_board_folders({from}, options, progress);
+  if (std::count_if(folders.capture.devices.begin(), folders.capture.devices.end(),
+                    [](const BoardDevice& d) { return d.is_camera; }) > 1)
+    throw InputError(
+        fmt::format("{}: pictures by several cameras, expected --camera with one of them", from.string()));
   notes.insert(notes.end(), folders.warnings.begin(), folders.warnings.end());
   const BoardCapture& capture = folders.capture;
   const glm::ivec2 count = point_count(options.boards[0]);

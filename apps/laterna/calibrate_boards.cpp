@@ -4,6 +4,7 @@
 #include "apps/lab/board_report.h"
 #include "apps/lab/known_intrinsics.h"
 #include "calib/boards/correspondence_csv.h"
+#include "calib/boards/known_devices.h"
 #include "sim/error.h"
 #include "sim/safe_write.h"
 
@@ -54,6 +55,14 @@ void add_known_words(BoardCapture& capture, const BoardWords& words) {
     throw InputError(
         "--compare with --known: the other methods solve for all intrinsics, expected one of the two");
   add_known(capture, read_known_intrinsics(words.known));
+  const char* model = words.lens != "auto"     ? "--lens"
+                      : words.one_focal_length ? "--one-focal-length"
+                      : words.fixed_center     ? "--fixed-center"
+                                               : nullptr;
+  if (model && all_known(capture))
+    throw InputError(fmt::format(
+        "{} with --known for every device: no intrinsics are left to solve for, expected one of the two",
+        model));
 }
 
 int finish(const BoardCalibration& calibration, const BoardFolders& folders, const BoardWords& words,
@@ -93,16 +102,18 @@ void add_board_words(CLI::App& command, BoardWords& words) {
   command
       .add_option("--lens", words.lens,
                   "For boards: auto (the ladder decides), pinhole, k1, k1k2, opencv4, opencv5, opencv8, "
-                  "opencv12, terms such as k1+p1p2, or one for each device: CAMERA,PROJECTOR")
+                  "opencv12, terms such as k1+p1p2, or one for each device: CAMERA,PROJECTOR; a device "
+                  "of --known keeps its own")
       ->capture_default_str();
   command
       .add_option("--board-bend", words.bend,
                   "For boards: on, off, or auto: a term that may climb in with --lens auto")
       ->capture_default_str()
       ->check(CLI::IsMember({"auto", "on", "off"}));
-  command.add_flag("--one-focal-length", words.one_focal_length, "For boards: fx = fy in each device");
+  command.add_flag("--one-focal-length", words.one_focal_length,
+                   "For boards: fx = fy in each device but those of --known");
   command.add_flag("--fixed-center", words.fixed_center,
-                   "For boards: the principal point stays in the middle of each image");
+                   "For boards: the principal point stays in the middle of each image but those of --known");
   command.add_flag("--compare", words.compare,
                    "For boards: runs OpenCV's, mrcal's and the stepwise solve on the same sightings with the "
                    "same lens model");
@@ -110,8 +121,9 @@ void add_board_words(CLI::App& command, BoardWords& words) {
                      "A printed board that stands elsewhere in every FOLDER; may be given several times: "
                      "chessboard,9x7,75mm (inner corners) or charuco,8x6,40mm,30mm,DICT_4X4_50 (squares) or "
                      "circles,7x5,30mm,15mm or acircles,4x11,20mm,15mm");
-  command.add_option("--camera", words.camera,
-                     "With --board: whose pictures are used, where there are several");
+  command.add_option(
+      "--camera", words.camera,
+      "With --board: whose pictures alone are used; all cameras are calibrated jointly without it");
   command
       .add_option(
           "--local-fit", words.local,

@@ -90,6 +90,12 @@ BoardCapture without_pose(const BoardCapture& capture, int pose) {
   return with_poses(capture, rest);
 }
 
+BoardCapture seen_by_cameras(const BoardCapture& capture) {
+  BoardCapture seen = capture;
+  std::erase_if(seen.sightings, [&](const Sighting& s) { return !is_camera(capture, s.device); });
+  return seen;
+}
+
 BoardCapture seen_by(const BoardCapture& capture, int device) {
   BoardCapture seen = capture;
   std::erase_if(seen.sightings, [&](const Sighting& s) { return s.device != device; });

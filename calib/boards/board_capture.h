@@ -16,6 +16,7 @@ struct BoardDevice {
   std::string name;
   glm::ivec2 size{0, 0};          ///< W, H in pixels
   std::optional<Device> known{};  ///< intrinsics and lens that are held; its placement is passed over
+  bool is_camera = false;         ///< it sees the board; device 0 does in any case
 };
 
 /// The camera's sighting at which a projector's pixel was read. Its error e moves that pixel by slope·e,
@@ -67,6 +68,14 @@ BoardCapture with_poses(const BoardCapture& capture, const std::vector<int>& pos
 
 /// All poses but one.
 BoardCapture without_pose(const BoardCapture& capture, int pose);
+
+/// Whether a device sees the board, as device 0 does; a projector's pixels are read at what cameras see.
+inline bool is_camera(const BoardCapture& capture, int device) {
+  return device == 0 || capture.devices[std::size_t(device)].is_camera;
+}
+
+/// The sightings of all cameras; devices and poses keep their indices.
+BoardCapture seen_by_cameras(const BoardCapture& capture);
 
 /// The sightings of one device alone; devices and poses keep their indices.
 BoardCapture seen_by(const BoardCapture& capture, int device);

@@ -136,6 +136,45 @@ std::optional<double> leverage(const RigProblem& problem, const RigFit& fit, con
   return distance_px(problem, fit.adjustment.rig, fold.rig, poses, device, points);
 }
 
+// Those whose volumes count; the last device where all are cameras.
+std::vector<int> projectors_of(const BoardCapture& capture) {
+  std::vector<int> projectors;
+  for (int n = 0; n < int(capture.devices.size()); ++n)
+    if (!is_camera(capture, n)) projectors.push_back(n);
+  if (projectors.empty()) projectors.push_back(int(capture.devices.size()) - 1);
+  return projectors;
+}
+
+std::vector<glm::dvec3> volume_of(const RigFit& fit, int device) {
+  return device_grid(fit, device, volume_depths(depths_of_sightings(fit, device)));
+}
+
+// A NaN stays.
+void raise_to(double value, double& most) {
+  if (!(value <= most) && !std::isnan(most)) most = value;
+}
+
+// The errors over one projector's volume: a diagnosis holds the greatest of all projectors.
+void diagnose_volume(const RigProblem& problem, const RigFit& fit, const RigCovariance& covariance,
+                     const HeldOut& held_out, int device, Diagnosis& d) {
+  const std::vector<glm::dvec3> volume = volume_of(fit, device);
+  d.maps_its_volume = d.maps_its_volume && volume.size() == std::size_t(16 * 12 * 12);
+  raise_to(sigma_over(problem, fit, covariance, device, volume).rms_px, d.predicted_volume_rms_px);
+  raise_to(sigma_over(problem, fit, covariance, device, volume, pixel_covariance_in_camera).rms_px,
+           d.predicted_volume_camera_frame_rms_px);
+  double sum = 0;
+  for (const HeldOutPose& fold : held_out.folds) {
+    const double moved = leverage(problem, fit, fold, device, volume).value_or(INFINITY);
+    std::optional<double>& most = d.poses[fold.pose].leverage_px;
+    most = std::max(most.value_or(0), moved);
+    sum += moved * moved;
+  }
+  const double poses = fit.capture.pose_count();
+  if (!held_out.failed.empty() || poses < 3 || !std::isfinite(sum)) return;
+  d.jackknife_volume_rms_px =
+      std::max(d.jackknife_volume_rms_px.value_or(0), std::sqrt(sum * (poses - 1) / poses));
+}
+
 std::vector<std::string> strongest_correlations(const RigFit& fit, const RigCovariance& c) {
   const auto names = column_names(fit.model, fit.capture);
   struct Pair {
@@ -217,9 +256,14 @@ WeakestDirection weakest_direction(const RigFit& fit, const std::vector<double>&
 std::optional<double> volume_distance_px(const RigFit& fit, const BoardRig& other) {
   std::vector<int> poses(other.camera_from_board.size());
   std::iota(poses.begin(), poses.end(), 0);
-  const int last = int(other.devices.size()) - 1;
-  return distance_px(RigProblem(fit.capture, fit.model), fit.adjustment.rig, other, poses, last,
-                     device_grid(fit, last, volume_depths(depths_of_sightings(fit, last))));
+  const RigProblem problem(fit.capture, fit.model);
+  double most = 0;
+  for (const int n : projectors_of(fit.capture)) {
+    const auto moved = distance_px(problem, fit.adjustment.rig, other, poses, n, volume_of(fit, n));
+    if (!moved) return std::nullopt;
+    most = std::max(most, *moved);
+  }
+  return most;
 }
 
 Diagnosis diagnose(const RigFit& fit, const RigCovariance& covariance, const HeldOut& held_out) {
@@ -233,23 +277,9 @@ Diagnosis diagnose(const RigFit& fit, const RigCovariance& covariance, const Hel
           d.tilt_spread_deg,
           degrees(angle_between(rig.camera_from_board[k].rotation[2], rig.camera_from_board[l].rotation[2])));
   }
-  const int last = int(rig.devices.size()) - 1;
-  for (int n = 0; n <= last; ++n) d.devices.push_back(diagnose_device(problem, fit, covariance, n));
-
-  const auto volume = device_grid(fit, last, volume_depths(depths_of_sightings(fit, last)));
-  d.maps_its_volume = volume.size() == std::size_t(16 * 12 * 12);
-  d.predicted_volume_rms_px = sigma_over(problem, fit, covariance, last, volume).rms_px;
-  d.predicted_volume_camera_frame_rms_px =
-      sigma_over(problem, fit, covariance, last, volume, pixel_covariance_in_camera).rms_px;
-  double sum = 0;
-  for (const HeldOutPose& fold : held_out.folds) {
-    d.poses[fold.pose].leverage_px = leverage(problem, fit, fold, last, volume);
-    sum += std::pow(d.poses[fold.pose].leverage_px.value_or(INFINITY), 2);
-  }
-  const double poses = fit.capture.pose_count();
-  if (held_out.failed.empty() && poses >= 3 && std::isfinite(sum))
-    d.jackknife_volume_rms_px = std::sqrt(sum * (poses - 1) / poses);
-
+  for (int n = 0; n < int(rig.devices.size()); ++n)
+    d.devices.push_back(diagnose_device(problem, fit, covariance, n));
+  for (const int n : projectors_of(fit.capture)) diagnose_volume(problem, fit, covariance, held_out, n, d);
   const WeakestDirection weakest = weakest_direction(fit, covariance.factor);
   d.weakest_sigma = weakest.sigma;
   d.weakest_direction = weakest.words;

@@ -17,8 +17,8 @@ struct PoseDiagnosis {
   std::vector<double> fit_rms_px;      ///< of each device
   double distance = 0;                 ///< of the board's middle from the camera, in the capture's unit
   double tilt_deg = 0;                 ///< between the board's normal and the camera's axis
-  /// How far leaving this pose out moves the pixels that the last device predicts, rms over its volume; none
-  /// where there is no solution without it.
+  /// How far leaving this pose out moves the pixels that a projector predicts, rms over its volume, the
+  /// greatest of all projectors; none where there is no solution without it.
   std::optional<double> leverage_px;
 };
 
@@ -40,8 +40,8 @@ struct Diagnosis {
   std::vector<DeviceDiagnosis> devices;
   double tilt_spread_deg = 0;  ///< largest angle between the normals of two boards
 
-  /// The volume of the last device: 16×12 pixels of its whole image × 12 depths over 5-95 % of its
-  /// sightings'.
+  /// The volume of a projector: 16×12 pixels of its whole image × 12 depths over 5-95 % of its
+  /// sightings'. The greatest of all projectors, here and below.
   double predicted_volume_rms_px = 0;  ///< by the covariance, which takes noise as independent
   /// Delete-one-pose jackknife of the same: sqrt((K-1)/K·Σ_k leverage_k²). It sees what the boards' poses
   /// have in common too: correlated noise, a bent board, a lens that is modelled too simply. None where a
@@ -63,8 +63,9 @@ struct Diagnosis {
 /// `covariance` and `held_out` belong to the fit.
 Diagnosis diagnose(const RigFit& fit, const RigCovariance& covariance, const HeldOut& held_out);
 
-/// How far another rig of the same devices, lenses and poses puts the last device's pixels elsewhere over its
-/// volume, rms (rig_covariance.h: carried_pixel()). None where a point ends up behind.
+/// How far another rig of the same devices, lenses and poses puts a projector's pixels elsewhere over its
+/// volume, rms, the greatest of all projectors (rig_covariance.h: carried_pixel()). None where a point ends
+/// up behind.
 std::optional<double> volume_distance_px(const RigFit& fit, const BoardRig& other);
 
 /// The weakest direction of an eliminated factor, and its standard deviation (infinite where singular).

@@ -59,7 +59,7 @@ BoardCapture without_outliers(const BoardCapture& capture, const BoardRig& start
     BoardCapture kept = capture;
     std::erase_if(kept.sightings, [&](const Sighting& s) {
       return std::any_of(result.dropped.begin(), result.dropped.end(), [&](const Sighting& d) {
-        return d.device == s.device && d.pose == s.pose && d.corner == s.corner;
+        return d.device == s.device && d.pose == s.pose && d.corner == s.corner && d.pixel == s.pixel;
       });
     });
     return kept;
@@ -200,7 +200,7 @@ double BoardCalibration::fit_rms_px() const {
   const RigFit& fit = ladder.fit;
   double sum = 0, count = 0;
   for (const Sighting& s : fit.capture.sightings)
-    if (s.device > 0) sum += fit.rms_px[s.device] * fit.rms_px[s.device], ++count;
+    if (!is_camera(fit.capture, s.device)) sum += fit.rms_px[s.device] * fit.rms_px[s.device], ++count;
   return count > 0 ? std::sqrt(sum / count) : 0;
 }
 

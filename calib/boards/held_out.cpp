@@ -13,11 +13,11 @@ BoardRig without_pose(BoardRig rig, int pose) {
   return rig;
 }
 
-// The board's pose in a capture of one pose, from device 0 alone; everything else of the rig stays.
-std::optional<BoardRig> with_pose_from_camera(const BoardCapture& one, RigModel model, BoardRig rig) {
+// The board's pose in a capture of one pose, from the cameras alone; everything else of the rig stays.
+std::optional<BoardRig> with_pose_from_cameras(const BoardCapture& one, RigModel model, BoardRig rig) {
   for (DeviceModel& device : model.devices) device.held = true;
   model.bend = model.hold_poses = false;
-  const auto adjusted = adjust({seen_by(one, 0), model}, rig);
+  const auto adjusted = adjust({seen_by_cameras(one), model}, rig);
   if (!adjusted || !adjusted->converged) return std::nullopt;
   return adjusted->rig;
 }
@@ -27,7 +27,7 @@ bool add_errors(const BoardCapture& one, const RigModel& model, const BoardRig& 
   const RigProblem problem(one, model);
   double sum = 0;
   for (const Sighting& s : one.sightings) {
-    if (s.device == 0) continue;
+    if (is_camera(one, s.device)) continue;
     double pixel[2];
     if (!predict(problem, rig, s, pixel, nullptr)) return false;
     sum += std::pow(pixel[0] - s.pixel.x, 2) + std::pow(pixel[1] - s.pixel.y, 2);
@@ -44,7 +44,7 @@ std::optional<HeldOutPose> hold_out(const BoardCapture& capture, const RigModel&
   const BoardCapture one = with_poses(capture, {pose});
   BoardRig start = *trained;
   start.camera_from_board = {rig.camera_from_board[pose]};
-  const auto placed = with_pose_from_camera(one, model, start);
+  const auto placed = with_pose_from_cameras(one, model, start);
   HeldOutPose fold{pose, 0, 0, *trained};
   if (!placed || !add_errors(one, model, *placed, fold)) return std::nullopt;
   return fold;

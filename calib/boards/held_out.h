@@ -11,7 +11,7 @@ namespace laterna {
 
 struct HeldOutPose {
   int pose = 0;       ///< index into the whole capture
-  double rms_px = 0;  ///< sqrt(mean(du² + dv²)) over its sightings by devices other than the camera
+  double rms_px = 0;  ///< sqrt(mean(du² + dv²)) over its sightings by projectors
   std::size_t sightings = 0;
   BoardRig rig;  ///< solved for without it
 };
@@ -26,9 +26,9 @@ struct HeldOut {
 using Calibrator = std::function<std::optional<BoardRig>(const BoardCapture&, const BoardRig& start)>;
 
 /// Leaves each pose out in turn: `calibrate` solves for the rig from the others (starting at `rig`); the
-/// board's pose comes from the camera's pixels alone with that rig's camera and bend; then the other devices'
+/// board's pose comes from the cameras' pixels alone with that rig's cameras and bend; then the projectors'
 /// pixels are predicted. `model` names the lenses of the rigs. Folds run in parallel. A fold without
-/// sightings by other devices has rms 0.
+/// sightings by projectors has rms 0.
 HeldOut hold_out_poses(const BoardCapture& capture, const RigModel& model, const BoardRig& rig,
                        const Calibrator& calibrate);
 

@@ -29,7 +29,7 @@ void add_camera_sightings(const std::vector<FoundPoint>& found, const PrintedBoa
 
 BoardReading add_projector_sightings(const std::vector<FoundPoint>& found, const PrintedBoard& board,
                                      const DecodedMap& map, int device, int pose, LocalMap local,
-                                     std::vector<Sighting>& sightings, double share) {
+                                     std::vector<Sighting>& sightings, double share, int camera) {
   const std::vector<glm::dvec3> points = board_points(board);
   std::vector<std::optional<ProjectorPixel>> read(found.size());
   parallel_for(found.size(), [&](std::size_t k) {
@@ -41,7 +41,7 @@ BoardReading add_projector_sightings(const std::vector<FoundPoint>& found, const
     if (!read[k]) continue;
     residuals.push_back(read[k]->residual_px);
     sightings.push_back({device, pose, found[k].index, points[std::size_t(found[k].index)], read[k]->pixel,
-                         std::max(read[k]->sigma_px, 1e-4), ReadAt{0, found[k].pixel, read[k]->slope}});
+                         std::max(read[k]->sigma_px, 1e-4), ReadAt{camera, found[k].pixel, read[k]->slope}});
   }
   return {residuals.size(), median(residuals)};
 }

@@ -25,9 +25,9 @@ void add_camera_sightings(const std::vector<FoundPoint>& found, const PrintedBoa
 /// A projector's sightings of the same: projector_pixel_at() at each point, over a disc of `share` of the
 /// distance to the nearest other point, at most 40 and at least 5 camera pixels. Their sigma is of the
 /// reading alone: that the camera's point is itself uncertain moves the projector's pixel by the map's slope
-/// (ReadAt). Points without a reading are left out.
+/// (ReadAt, of device `camera`). Points without a reading are left out.
 BoardReading add_projector_sightings(const std::vector<FoundPoint>& found, const PrintedBoard& board,
                                      const DecodedMap& map, int device, int pose, LocalMap local,
-                                     std::vector<Sighting>& sightings, double share = 0.45);
+                                     std::vector<Sighting>& sightings, double share = 0.45, int camera = 0);
 
 }  // namespace laterna

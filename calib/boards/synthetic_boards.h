@@ -22,6 +22,7 @@ struct BoardScene {
   std::vector<std::string> camera_terms, projector_terms;
   std::vector<double> camera_lens, projector_lens;  ///< parameters of the models of these terms
   glm::dvec2 bend{0.0};
+  bool second_camera = false, second_projector = false;  ///< on the other side, the last devices; pinholes
 };
 
 /// A rotation that takes direction a to direction b.
@@ -31,6 +32,14 @@ inline glm::dmat3 turn(const glm::dvec3& a, const glm::dvec3& b) {
   if (sine < 1e-12) return glm::dmat3(1.0);
   const double angle = std::atan2(sine, glm::dot(glm::normalize(a), glm::normalize(b)));
   return rigid_from_rotation_vector(axis / sine * angle, glm::dvec3(0.0)).rotation;
+}
+
+/// A device at a place in the camera's frame that looks with the middle of its image at 1.4 m before it.
+inline RigDevice looking_device(std::vector<double> parameters, glm::ivec2 size, const glm::dvec3& position) {
+  const glm::dvec3 ray((size.x / 2.0 - parameters[2]) / parameters[0],
+                       (size.y / 2.0 - parameters[3]) / parameters[1], 1);
+  const glm::dmat3 rotation = turn(glm::dvec3(0, 0, 1.4) - position, ray);
+  return {std::move(parameters), {rotation, -(rotation * position)}};
 }
 
 /// Camera 1280×1024 at the origin, projector 1024×768 with its principal point below the image, 0.3 m beside.
@@ -44,11 +53,11 @@ inline BoardRig rig_without_poses(const BoardScene& scene) {
   };
   append(rig.devices[0].parameters, scene.camera_lens);
   append(rig.devices[1].parameters, scene.projector_lens);
-  const auto& k = rig.devices[1].parameters;
-  const glm::dvec3 position(-0.3, 0.15, 0.1), to_middle = glm::dvec3(0, 0, 1.4) - position;
-  const glm::dvec3 ray((512 - k[2]) / k[0], (384 - k[3]) / k[1], 1);
-  const glm::dmat3 rotation = turn(to_middle, ray);
-  rig.devices[1].device_from_camera = {rotation, -(rotation * position)};
+  rig.devices[1] = looking_device(rig.devices[1].parameters, {1024, 768}, {-0.3, 0.15, 0.1});
+  if (scene.second_camera)
+    rig.devices.push_back(looking_device({1750, 1740, 630, 520}, {1280, 1024}, {0.4, -0.1, 0.05}));
+  if (scene.second_projector)
+    rig.devices.push_back(looking_device({1600, 1610, 520, 870}, {1024, 768}, {0.35, 0.2, 0.1}));
   rig.bend = scene.bend;
   return rig;
 }
@@ -78,17 +87,21 @@ inline BoardTruth board_truth(const BoardScene& scene, std::mt19937_64& random) 
   t.model.devices = {model_of_terms(scene.camera_terms), model_of_terms(scene.projector_terms)};
   t.rig = rig_without_poses(scene);
   t.capture.devices = {{"camera", {1280, 1024}}, {"projector", {1024, 768}}};
+  if (scene.second_camera) t.capture.devices.push_back({"camera2", {1280, 1024}, {}, true});
+  if (scene.second_projector) t.capture.devices.push_back({"projector2", {1024, 768}});
+  t.model.devices.resize(t.rig.devices.size());
   for (int k = 0; k < scene.poses; ++k) {
     t.rig.camera_from_board.push_back(random_board_pose(scene, random));
     t.capture.pose_labels.push_back(k);
-    for (int d = 0; d < 2; ++d)
+    for (int d = 0; d < int(t.rig.devices.size()); ++d)
       for (int corner = 0; corner < 63; ++corner)
-        t.capture.sightings.push_back({d,
-                                       k,
-                                       corner,
-                                       {0.06 * (corner % 9), 0.06 * ((corner - corner % 9) / 9.0), 0},
-                                       {0, 0},
-                                       d == 0 ? scene.camera_sigma_px : scene.projector_sigma_px});
+        t.capture.sightings.push_back(
+            {d,
+             k,
+             corner,
+             {0.06 * (corner % 9), 0.06 * ((corner - corner % 9) / 9.0), 0},
+             {0, 0},
+             is_camera(t.capture, d) ? scene.camera_sigma_px : scene.projector_sigma_px});
   }
   t.capture.extent = extent_of(t.capture.sightings);
   const RigProblem problem(t.capture, t.model);

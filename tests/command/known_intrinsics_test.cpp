@@ -114,6 +114,11 @@ TEST(KnownIntrinsics, OnePoseOfABoardIsEnoughForThePlacement) {
               HasSubstr("of which device"));
   EXPECT_THAT(laterna(command + " --compare" + known, scratch.path()).err,
               HasSubstr("expected one of the two"));
+  for (const char* option : {"--lens k1", "--one-focal-length", "--fixed-center"}) {
+    const auto idle = laterna(command + known + " " + option, scratch.path());
+    EXPECT_EQ(idle.exit_code, 2) << option;
+    EXPECT_THAT(idle.err, HasSubstr("with --known for every device: no intrinsics are left to solve for"));
+  }
 }
 
 }  // namespace

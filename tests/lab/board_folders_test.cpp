@@ -110,6 +110,44 @@ std::pair<glm::dvec2, double> sighting_errors(const BoardFolders& found, const s
 
 }  // namespace
 
+// Every board is one pose for both cameras; each reads the projector at its own corners. Places within five
+// sigmas, which take no account of what corners have in common: twice what noise alone would make likely.
+TEST(BoardFolders, TwoCamerasAreCalibratedJointly) {
+  const ScratchFolder folder;
+  SceneSpec spec = scene_with("chessboard,8x5,32mm", "kind = \"gray\"\n");
+  spec.cameras.push_back(spec.cameras.front());
+  spec.cameras.back().device.name = "right";
+  spec.cameras.back().device.position->x += 0.25;
+  StageTimes times;
+  write_board_captures(spec, ".", folder / "boards", 4, {.seed = testing::seed(), .truth = false}, times);
+  const BoardFolders found =
+      read_board_folders({folder / "boards"}, {.boards = {parse_board("chessboard,8x5,32mm")}});
+  ASSERT_EQ(found.capture.devices.size(), 3u);
+  EXPECT_TRUE(is_camera(found.capture, 0) && is_camera(found.capture, 1) && !is_camera(found.capture, 2));
+  EXPECT_EQ(found.placements.size(), 8u) << ::testing::PrintToString(found.warnings);
+  EXPECT_EQ(found.capture.pose_count(), 4);
+  const Scene scene = build_scene(spec, ".");
+  const auto places = board_places(spec, ".", {.count = 4}, testing::seed());
+  for (int d = 0; d < 3; ++d) {
+    const BoardDevice& device = found.capture.devices[std::size_t(d)];
+    const Device* truth = &scene.projectors[0].device;
+    for (const Camera& camera : scene.cameras)
+      if (camera.device.name == device.name) truth = &camera.device;
+    EXPECT_LT(sighting_errors(found, places, *truth, d).second, 0.25) << device.name;  // px; Gray codes alone
+  }
+  BoardOptions options;
+  options.terms.assign(3, {"k1"});
+  const BoardCalibration calibration = calibrate_boards(found.capture, options);
+  ASSERT_NE(calibration.status, Status::refused) << calibration.reason;
+  const Device& first = scene.cameras[found.capture.devices[0].name == "right" ? 1 : 0].device;
+  const Device& second = scene.cameras[found.capture.devices[0].name == "right" ? 0 : 1].device;
+  const Rigid second_from_first = compose(second.device_from_world, inverse(first.device_from_world));
+  const RigColumns columns = columns_of(calibration.ladder.fit.model);
+  for (int i = 0; i < 3; ++i)
+    EXPECT_NEAR(calibration.devices[1].device_from_world.translation[i], second_from_first.translation[i],
+                5 * calibration.sigma[std::size_t(columns.devices[1].pose + 3 + i)]);
+}
+
 // The prediction is of the projector's own volume, some of it farther from the boards than this grid; three
 // times it is beyond chance for a sum of some ten squared parameters.
 TEST(BoardFolders, SixPlacesCalibrateBothDevices) {

@@ -56,7 +56,7 @@ inline void expect_sigmas(const BoardTruth& t, const BoardTrials& trials, double
   const auto& k = t.rig.devices[1].parameters;
   for (int place = 0; place < 20; ++place) {
     for (const double range : {0.8, 1.5, 30.0}) {
-      const glm::dvec2 pixel(128.0 + 192 * (place % 5), 96.0 + 192 * (place / 5));
+      const glm::dvec2 pixel(128.0 + 192 * (place % 5), 96.0 + 192 * ((place - place % 5) / 5.0));
       const glm::dvec3 x = range * glm::dvec3((pixel.x - k[2]) / k[0], (pixel.y - k[3]) / k[1], 1);
       const auto here = carried_pixel(problem.lenses[1], t.rig, t.rig, poses, 1, x);
       const auto predicted = pixel_covariance(problem, t.rig, *c, 1, x);
