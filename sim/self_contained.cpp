@@ -100,4 +100,12 @@ SceneSpec seen_from(SceneSpec spec, const fs::path& folder, const fs::path& targ
   return spec;
 }
 
+std::vector<fs::path> files_of(SceneSpec spec, const fs::path& folder) {
+  std::vector<fs::path> files;
+  for_each_file(spec, [&](const std::string& file) {
+    if (!file.empty()) files.push_back(folder / file);
+  });
+  return files;
+}
+
 }  // namespace laterna

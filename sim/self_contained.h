@@ -5,6 +5,7 @@
 #include "sim/scene_spec.h"
 
 #include <filesystem>
+#include <vector>
 
 namespace laterna {
 
@@ -18,5 +19,8 @@ SceneSpec write_self_contained(const SceneSpec& spec, const Scene& scene, const 
 /// The specification with relative file names, which are looked for in `folder`, turned so that they are
 /// found from the folder `target`. Absolute names stay.
 SceneSpec seen_from(SceneSpec spec, const std::filesystem::path& folder, const std::filesystem::path& target);
+
+/// Every file that the specification names: meshes, pictures and camera models, relative names in `folder`.
+std::vector<std::filesystem::path> files_of(SceneSpec spec, const std::filesystem::path& folder);
 
 }  // namespace laterna

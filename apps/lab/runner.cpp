@@ -27,29 +27,9 @@ using Json = nlohmann::json;
 using Clock = std::chrono::steady_clock;
 
 volatile std::sig_atomic_t stop_asked = 0;
-
-// While it lives, SIGINT and SIGTERM only ask to stop, once each.
-class StopSignals {
- public:
-  StopSignals() {
-    stop_asked = 0;
-    struct sigaction action {};
-    action.sa_handler = [](int) { stop_asked = 1; };
-    action.sa_flags = static_cast<int>(SA_RESETHAND);
-    sigaction(SIGINT, &action, &before_int_);
-    sigaction(SIGTERM, &action, &before_term_);
-  }
-  ~StopSignals() {
-    sigaction(SIGINT, &before_int_, nullptr);
-    sigaction(SIGTERM, &before_term_, nullptr);
-  }
-  StopSignals(const StopSignals&) = delete;
-  StopSignals& operator=(const StopSignals&) = delete;
-
- private:
-  struct sigaction before_int_ {
-  }, before_term_{};
-};
+int stop_signals_alive = 0;
+struct sigaction before_int {};
+struct sigaction before_term {};
 
 /// What a journal tells of its jobs.
 struct Past {
@@ -75,8 +55,11 @@ Past read_journal(const fs::path& path, const std::string& fingerprint) {
     if (n == 0) {
       if (json.value("journal", 0) != 1) throw InputError(path.string() + ": no journal of this command");
       if (json.value("fingerprint", "") != fingerprint)
-        throw InputError(fmt::format(
-            "{}: begun with another specification, expected the same one to resume it", path.string()));
+        throw InputError(
+            fmt::format("{}: begun with another specification, or a file that it names has changed since; "
+                        "expected the same "
+                        "to resume it",
+                        path.string()));
     } else if (json.contains("begin")) {
       ++past.begun[json["begin"].get<std::string>()];
     } else if (json.contains("id")) {
@@ -178,6 +161,22 @@ Past past_of(const fs::path& journal, const RunnerOptions& options) {
 }
 
 }  // namespace
+
+StopSignals::StopSignals() {
+  if (stop_signals_alive++ > 0) return;
+  stop_asked = 0;
+  struct sigaction action {};
+  action.sa_handler = [](int) { stop_asked = 1; };
+  action.sa_flags = static_cast<int>(SA_RESETHAND);
+  sigaction(SIGINT, &action, &before_int);
+  sigaction(SIGTERM, &action, &before_term);
+}
+
+StopSignals::~StopSignals() {
+  if (--stop_signals_alive > 0) return;
+  sigaction(SIGINT, &before_int, nullptr);
+  sigaction(SIGTERM, &before_term, nullptr);
+}
 
 RunOutcome run_jobs(const std::vector<Job>& jobs, const RunnerOptions& options, const Progress& progress) {
   std::error_code failed;

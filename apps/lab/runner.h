@@ -29,6 +29,17 @@ struct RunnerOptions {
   int most_deaths = 2;         ///< of the process in one job, which then counts as crashed
 };
 
+/// While one lives, SIGINT and SIGTERM only ask to stop, once each: run_jobs() then begins no job. Those that
+/// live inside another add nothing to it, so that a command of several runs holds one over all of them. Not
+/// for several threads.
+class StopSignals {
+ public:
+  StopSignals();
+  ~StopSignals();
+  StopSignals(const StopSignals&) = delete;
+  StopSignals& operator=(const StopSignals&) = delete;
+};
+
 /// How a job ended.
 struct JobOutcome {
   nlohmann::json result;  ///< null where not done or crashed

@@ -57,12 +57,13 @@ int run(const Words& words, const Common& common) {
 
 void add_report(CLI::App& app, Common& common) {
   auto words = std::make_shared<Words>();
-  CLI::App* command = add_command(
-      app, "report", "laterna report scene-roundtrip",
-      "Draws what Laterna left in a folder as one HTML file that opens offline: a round trip, a "
-      "capture, a calibration\nfrom boards, a chart or an atlas. With --json, prints the data that "
-      "the page holds, and writes nothing.");
-  command->add_option("PATH", words->path, "Folder, or JSON by `laterna calibrate --board`")->required();
+  CLI::App* command =
+      add_command(app, "report", "laterna report scene-roundtrip",
+                  "Draws what Laterna left in a folder as one HTML file that opens offline: a round trip, a "
+                  "capture, a calibration\nfrom boards, a self-calibration, plans, charts, an atlas, or "
+                  "stored references of these.\nWith --json, prints the data that "
+                  "the page holds, and writes nothing.");
+  command->add_option("PATH", words->path, "Folder, or one JSON file of these")->required();
   command->add_option("-o,--output", words->out,
                       "HTML file, replaced where it exists (default: PATH/report.html)");
   command->add_option("--figures", words->figures,

@@ -5,10 +5,12 @@
 #include "apps/lab/report/static_figures.h"
 #include "apps/lab/report/svg_chart.h"
 #include "apps/lab/report/thumbnails.h"
+#include "sim/text_file.h"
 #include "tests/testing.h"
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace laterna {
@@ -76,11 +78,37 @@ TEST(ReportData, TakesAChartAsItStands) {
   const ScratchFolder scratch;
   write_text(scratch / "chart.json", small_chart());
   const json data = report_data(scratch.path());
-  EXPECT_EQ(data["chart"], json::parse(small_chart()));
+  EXPECT_EQ(data["charts"], json::array({json::parse(small_chart())}));
   ASSERT_EQ(data["verdicts"].size(), 1U);
   EXPECT_EQ(data["verdicts"][0]["facts"][0]["value"], 2);
   EXPECT_FALSE(data.contains("atlas"));
   ASSERT_EQ(static_figures(data).size(), 1U);
+}
+
+// Folders of the repository: every file of theirs is drawn, and what is drawn is what they say.
+TEST(ReportData, TakesStoredReferences) {
+  const json plans = report_data(testing::data_folder() / "plan");
+  EXPECT_EQ(plans["plan_names"], json({"convex", "near_focus", "v_groove"}));
+  EXPECT_EQ(plans["plans"][1],
+            json::parse(read_text(testing::data_folder() / "plan/near_focus.json", 1 << 20)));
+  EXPECT_EQ(static_figures(plans).size(), 3U);
+  const json charts = report_data(testing::data_folder() / "charts");
+  EXPECT_EQ(charts["charts"].size(), 6U);
+  EXPECT_EQ(static_figures(charts).size(), 6U);
+  const json atlas = report_data(testing::data_folder() / "atlas/standard.json");
+  const json& cells = atlas["atlas_references"][0]["cells"];
+  const auto is_counted = [](const json& cell) { return !cell["hidden"].get<bool>(); };
+  EXPECT_EQ(std::count_if(cells.begin(), cells.end(), is_counted),
+            atlas["atlas_references"][0]["summary"]["conditions"]);
+  EXPECT_EQ(atlas["verdicts"][0]["status"], "ok");
+}
+
+TEST(ReportData, AnAtlasWhoseLettersDoNotCountUpIsRefused) {
+  const ScratchFolder scratch;
+  write_text(scratch / "a.json", R"({"conditions": 1, "seeds": 2, "hidden": {}, "letters": {"g: x=1": "rw"},
+    "methods": {"laterna": {"right": 2, "weak": 0, "refused": 0, "silent": 0, "crashed": 0}}})");
+  EXPECT_THAT(input_error([&] { report_data(scratch / "a.json"); }),
+              HasSubstr("\"right\" says 2, but its letters count 1"));
 }
 
 TEST(ReportData, SaysWhatIsWrong) {

@@ -128,6 +128,19 @@ TEST(Runner, OnRequestNoNumberOfDeathsMakesACrash) {
   EXPECT_EQ(run_jobs(squares(3, worked), options).jobs[2].result["value"], 4);
 }
 
+// A person who presses ctrl-C between two runs of one command is heard by the next one.
+TEST(Runner, AStopBetweenRunsHoldsForTheNext) {
+  const ScratchFolder folder;
+  std::atomic<int> worked{0};
+  const StopSignals over_all_runs;
+  EXPECT_FALSE(run_jobs(squares(3, worked), {.folder = folder / "a", .fingerprint = "f"}).interrupted);
+  std::raise(SIGINT);
+  const RunOutcome next = run_jobs(squares(5, worked), {.folder = folder / "b", .fingerprint = "f"});
+  EXPECT_TRUE(next.interrupted);
+  EXPECT_EQ(next.done, 0u);
+  EXPECT_EQ(worked, 3);
+}
+
 TEST(Runner, BadInput) {
   const ScratchFolder folder;
   std::atomic<int> worked{0};

@@ -6,7 +6,7 @@ import { execFileSync } from "node:child_process";
 import { mkdirSync, readFileSync, readdirSync, rmSync } from "node:fs";
 import { createRequire } from "node:module";
 import { join } from "node:path";
-import { gather } from "./samples.mjs";
+import { gather, gatherStored } from "./samples.mjs";
 
 const [laterna, modules, chromiumPath, source, scratch] = process.argv.slice(2);
 const { chromium } = createRequire(join(modules, "x.js"))("playwright-core");
@@ -31,7 +31,7 @@ async function watched(browser) {
   const complaints = [];
   const isBad = (message) => ["error", "warning"].includes(message.type()) && !message.text().includes("GPU stall");
   const isOwn = (url) =>
-    /^(data|blob):/.test(url) || [scratch + "/page.html", scratch + "/static.html"].some((own) => url.endsWith(own));
+    /^(data|blob):/.test(url) || ["page", "static", "stored"].some((own) => url.endsWith(`${scratch}/${own}.html`));
   page.on("console", (message) => isBad(message) && complaints.push(message.text()));
   page.on("pageerror", (error) => complaints.push(String(error)));
   page.on("request", (request) => isOwn(request.url()) || complaints.push("request " + request.url()));
@@ -53,7 +53,7 @@ async function numbersEqual(page, data) {
   }
 }
 
-async function figuresDraw(page) {
+async function figuresDraw(page, least) {
   const figures = await page.$$eval("figure [role=img]", (all) =>
     all
       .filter((e) => e.tagName !== "CANVAS")
@@ -63,12 +63,15 @@ async function figuresDraw(page) {
         bad: /NaN|undefined|Infinity/.test(e.outerHTML),
       })),
   );
-  assert.ok(figures.length >= 11, `${figures.length} figures`);
+  assert.ok(figures.length >= least, `${figures.length} figures`);
   for (const f of figures) {
     assert.ok(f.name && !f.name.includes("“”"), `a figure without a name: ${f.name}`);
     assert.ok(f.marks >= 3, `${f.name}: ${f.marks} marks`);
     assert.ok(!f.bad, `${f.name}: NaN`);
   }
+}
+
+async function rigDraws(page) {
   const colours = await page.$eval("canvas.rig", (canvas) => {
     const copy = Object.assign(document.createElement("canvas"), { width: 200, height: 112 }),
       context = copy.getContext("2d");
@@ -201,7 +204,8 @@ async function wholePage(page, data) {
   const ids = await page.$$eval("main > section", (all) => all.map((e) => e.id));
   assert.deepEqual(ids, ["summary", "pictures", "rig", "residuals", "projection", "live", "board-rig", "board", "chart", "atlas"]);
   await numbersEqual(page, data);
-  await figuresDraw(page);
+  await figuresDraw(page, 11);
+  await rigDraws(page);
   await readable(page);
   await sliderMoves(page);
   await rigTurns(page);
@@ -213,6 +217,19 @@ async function wholePage(page, data) {
   await prints(page);
 }
 
+async function storedPage(page, data) {
+  await page.emulateMedia({ media: "screen", colorScheme: "light" });
+  await open(page, "stored.html");
+  const ids = await page.$$eval("main > section", (all) => all.map((e) => e.id));
+  assert.deepEqual(ids, ["summary", "selfcal", "plan", "plan-2", "chart", "chart-2", "atlas-reference-1"]);
+  await numbersEqual(page, data);
+  await figuresDraw(page, 7);
+  await readable(page);
+  if (screenshots) await keep(page, "stored_light.png");
+  await darkIsDark(page);
+  if (screenshots) await keep(page, "stored_dark.png");
+}
+
 async function staticPage(page) {
   await open(page, "static.html");
   assert.ok((await page.$$("svg")).length >= 12);
@@ -221,13 +238,15 @@ async function staticPage(page) {
   if (screenshots) await keep(page, "static.png");
 }
 
-const data = gather(laterna, source, scratch);
+const data = gather(laterna, source, scratch),
+  stored = gatherStored(laterna, source, scratch);
 const browser = await chromium.launch({ executablePath: chromiumPath, args: flags });
 try {
   const { page, complaints } = await watched(browser);
   try {
     await wholePage(page, data);
     await staticPage(page);
+    await storedPage(page, stored);
     assert.deepEqual(complaints, []);
   } catch (error) {
     await keep(page, "failed.png");

@@ -1,7 +1,7 @@
 // A folder with everything that a page can hold, as the commands leave it.
 import assert from "node:assert/strict";
-import { execFileSync } from "node:child_process";
-import { cpSync, readFileSync, writeFileSync } from "node:fs";
+import { execFileSync, spawnSync } from "node:child_process";
+import { cpSync, mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 
 // A 7×6 board in six places before an ideal camera and projector, with a little deterministic noise.
@@ -21,6 +21,21 @@ function boardTable() {
       lines.push(`${pose},${corner},${x + 0.09},${y + 0.075},0,${pixel(1400, 640, 512, 0)},${pixel(1500, 512, 700, 0.12)},1`);
     }
   });
+  return lines.join("\n") + "\n";
+}
+
+// Points in a box before a camera and a projector that lights them, in a table for self-calibration.
+function pairTable() {
+  const lines = ["point,device,station,x,y"];
+  let noise = 7;
+  const uniform = () => (noise = (noise * 16807) % 2147483647) / 2147483647 - 0.5;
+  for (let point = 0; point < 60; ++point) {
+    const [x, y, z] = [1.2 * uniform(), 0.9 * uniform(), 2 + uniform()];
+    const a = 0.25, [X, Z] = [x * Math.cos(a) - z * Math.sin(a) + 0.6, x * Math.sin(a) + z * Math.cos(a)];
+    const jitter = () => 0.1 * uniform();
+    lines.push(`p${point},camera,one,${(1500 * x) / z + 640 + jitter()},${(1500 * y) / z + 512 + jitter()}`);
+    lines.push(`p${point},projector,one,${(1300 * X) / Z + 512 + jitter()},${(1300 * y) / Z + 384 + jitter()}`);
+  }
   return lines.join("\n") + "\n";
 }
 
@@ -85,6 +100,31 @@ export function gather(laterna, source, scratch) {
   const page = readFileSync(join(scratch, "page.html"), "utf8");
   const data = JSON.parse(page.match(/<script type="application\/json" id="data">(.*?)<\/script>/s)[1]);
   const json = (name) => JSON.parse(readFileSync(join(scratch, "all", name + ".json")));
-  assert.deepEqual([data.result, data.board, data.chart, data.atlas.summary], ["result", "board", "chart", "atlas"].map(json));
+  assert.deepEqual([data.result, data.board, data.charts[0], data.atlas.summary], ["result", "board", "chart", "atlas"].map(json));
+  return data;
+}
+
+/** A folder of stored references and a self-calibration, and its page; gives the page's data, which are those of the files. */
+export function gatherStored(laterna, source, scratch) {
+  const folder = join(scratch, "stored");
+  mkdirSync(folder);
+  const named = { "plan/near_focus": "near_focus", "plan/v_groove": "v_groove", "charts/points": "points" };
+  Object.assign(named, { "charts/second_sample": "second_sample", "atlas/standard": "standard" });
+  for (const [from, to] of Object.entries(named)) cpSync(join(source, "data", from + ".json"), join(folder, to + ".json"));
+  writeFileSync(join(scratch, "pair.csv"), pairTable());
+  const words = ["--size", "camera=1280x1024", "--size", "projector=1024x768", "--known", "camera=1500,1500,640,512"];
+  const options = { cwd: scratch, stdio: ["ignore", "ignore", "ignore"] };
+  spawnSync(laterna, ["selfcal", "pair.csv", ...words, "--assume", "projector=focal", "-o", "stored/pair.json"], options);
+  execFileSync(laterna, ["report", "stored", "-o", "stored.html"], options);
+  execFileSync(laterna, ["report", "stored", "-o", "stored_static.html", "--static", "--figures", "stored_figures"], options);
+  const page = readFileSync(join(scratch, "stored.html"), "utf8");
+  const data = JSON.parse(page.match(/<script type="application\/json" id="data">(.*?)<\/script>/s)[1]);
+  const json = (name) => JSON.parse(readFileSync(join(folder, name + ".json")));
+  assert.deepEqual(data.plans, ["near_focus", "v_groove"].map(json));
+  assert.deepEqual(data.charts, ["points", "second_sample"].map(json));
+  assert.deepEqual(data.selfcals, [json("pair")]);
+  const { letters, ...summary } = json("standard");
+  assert.deepEqual(data.atlas_references[0].summary, summary);
+  assert.deepEqual(Object.fromEntries(data.atlas_references[0].cells.map((cell) => [cell.cell, cell.letters])), letters);
   return data;
 }

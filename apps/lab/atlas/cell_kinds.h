@@ -50,6 +50,10 @@ struct CellKind {
   std::function<CellTrial(const nlohmann::json& values, const std::string& place,
                           const std::filesystem::path& folder)>
       prepare;
+  /// The files that a cell reads beside the specification; none: it reads none. Throws as `prepare` does.
+  std::function<std::vector<std::filesystem::path>(const nlohmann::json& values, const std::string& place,
+                                                   const std::filesystem::path& folder)>
+      files{};
 };
 
 /// points: correspondences of a known geometry (point_condition.h).

@@ -4,6 +4,7 @@
 #include "apps/lab/trial.h"
 #include "render/effects/apply_effects.h"
 #include "sim/scene_file.h"
+#include "sim/self_contained.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -137,6 +138,13 @@ CellKind picture_cells() {
             } catch (const InputError& error) {
               throw InputError(fmt::format("{}: {}", place, error.what()));
             }
+          },
+          [](const nlohmann::json& values, const std::string& place, const std::filesystem::path& folder) {
+            const PictureCondition condition = condition_of(values, place);
+            const std::filesystem::path file = folder / condition.scene;
+            auto files = files_of(read_scene_spec(file, condition.set), file.parent_path());
+            files.push_back(file);
+            return files;
           }};
 }
 

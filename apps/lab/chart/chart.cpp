@@ -2,6 +2,7 @@
 
 #include "apps/lab/atlas/cell_kinds.h"
 #include "apps/lab/cell_seed.h"
+#include "apps/lab/files_digest.h"
 #include "apps/lab/grid_settings.h"
 #include "apps/lab/json_number.h"
 #include "apps/lab/peak_memory.h"
@@ -241,6 +242,23 @@ std::vector<std::size_t> pareto_front(const std::vector<ChartPoint>& points) {
   return front;
 }
 
+namespace {
+
+std::string digest_of_files(const std::vector<Grid>& grids, const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> files;
+  for (const Grid& grid : grids) {
+    const CellKind& kind = cell_kind(grid.kind, grid.place);
+    if (!kind.files) continue;
+    for (const GridCell& cell : cells_of(grid)) {
+      const auto read = kind.files(cell.values, grid.place, folder);
+      files.insert(files.end(), read.begin(), read.end());
+    }
+  }
+  return files_digest(std::move(files));
+}
+
+}  // namespace
+
 Chart run_chart(const std::filesystem::path& specification, const std::filesystem::path& folder,
                 const ChartOptions& options, const Progress& progress) {
   const std::string text = read_text(specification, std::size_t(16) << 20);
@@ -253,19 +271,20 @@ Chart run_chart(const std::filesystem::path& specification, const std::filesyste
       plan_cell(grid, cell, kind.prepare(cell.values, grid.place, specification.parent_path()), options,
                 planned);
   }
+  const std::string digest = digest_of_files(grids, specification.parent_path());
   planned = chosen(std::move(planned), options, specification.string());
   std::vector<Job> jobs;
   for (const Planned& p : planned)
     jobs.push_back({p.point.label, [&p, &options] { return run_point(p, options.seed); }});
-  const RunOutcome run =
-      run_jobs(jobs,
-               {.folder = folder,
-                .fingerprint = fmt::format("chart {:016x} seed {} repeats {} points {}", hash_of(text),
-                                           options.seed, options.repeats, fmt::join(options.points, "|")),
-                .resume = options.resume,
-                .parallel = false,
-                .noun = "points"},
-               progress);
+  const RunOutcome run = run_jobs(
+      jobs,
+      {.folder = folder,
+       .fingerprint = fmt::format("chart {:016x} files {} seed {} repeats {} points {}", hash_of(text),
+                                  digest, options.seed, options.repeats, fmt::join(options.points, "|")),
+       .resume = options.resume,
+       .parallel = false,
+       .noun = "points"},
+      progress);
   chart.interrupted = run.interrupted, chart.done = run.done, chart.all = jobs.size();
   for (std::size_t k = 0; k < planned.size(); ++k) {
     if (!run.jobs[k].done) continue;

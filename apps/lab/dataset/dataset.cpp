@@ -1,12 +1,15 @@
 #include "apps/lab/dataset/dataset.h"
 
 #include "apps/lab/dataset/block.h"
+#include "apps/lab/dataset/drawn_scene.h"
 #include "apps/lab/dataset/sample.h"
 #include "apps/lab/dataset/sha256.h"
+#include "apps/lab/files_digest.h"
 #include "apps/lab/runner.h"
 #include "sim/error.h"
 #include "sim/instruction_sets.h"
 #include "sim/safe_write.h"
+#include "sim/self_contained.h"
 #include "sim/text_file.h"
 
 #include <fmt/format.h>
@@ -38,6 +41,18 @@ std::string identity(const DatasetSpec& spec, const DatasetOptions& options) {
                   {"spec_sha256", sha256_hex(spec.text)},
                   {"scene_sha256", sha256_hex(spec.scene_text)}};
   return json.dump(1) + "\n";
+}
+
+// Of the files that the first samples' scenes name: 64 draws meet every choice that is not rare.
+std::string digest_of_files(const DatasetSpec& spec, const DatasetOptions& options) {
+  std::vector<fs::path> files;
+  for (std::uint64_t sample = 0; sample < std::min<std::uint64_t>(std::uint64_t(options.count), 64);
+       ++sample) {
+    const auto named =
+        files_of(scene_of(spec, draw_values(spec, options.seed, sample, 0)), spec.scene_file.parent_path());
+    files.insert(files.end(), named.begin(), named.end());
+  }
+  return files_digest(std::move(files));
 }
 
 // The first difference, in words.
@@ -142,12 +157,13 @@ void run_shard(const DatasetFolder& folder, const DatasetSpec& spec, const Datas
   const FileLock lock(run_folder / ".lock", FileLock::Wait::no);
   std::atomic<std::uint64_t> made = 0;
   const CostClock clock;
-  const RunnerOptions runner{.folder = run_folder,
-                             .fingerprint = sha256_hex(identity(spec, options)),
-                             .resume = options.resume && fs::exists(run_folder / "journal.jsonl"),
-                             .noun = "samples",
-                             .stop_at_error = true,
-                             .most_deaths = std::numeric_limits<int>::max()};
+  const RunnerOptions runner{
+      .folder = run_folder,
+      .fingerprint = sha256_hex(identity(spec, options) + digest_of_files(spec, options)),
+      .resume = options.resume && fs::exists(run_folder / "journal.jsonl"),
+      .noun = "samples",
+      .stop_at_error = true,
+      .most_deaths = std::numeric_limits<int>::max()};
   try {
     outcome.interrupted = run_jobs(jobs_of(folder, spec, options, made), runner, progress).interrupted;
   } catch (const InputError& error) {

@@ -1,10 +1,12 @@
 #include "apps/lab/plan/plan.h"
 
 #include "apps/lab/cell_seed.h"
+#include "apps/lab/files_digest.h"
 #include "apps/lab/plan/plan_trials.h"
 #include "sim/error.h"
 #include "sim/scene_build.h"
 #include "sim/scene_file.h"
+#include "sim/self_contained.h"
 #include "sim/text_file.h"
 
 #include <fmt/format.h>
@@ -219,18 +221,20 @@ Scene checked_scene(const SceneSpec& spec, const std::filesystem::path& file) {
 
 Plan make_plan(const std::filesystem::path& scene_file, const std::filesystem::path& folder,
                const PlanOptions& options, const Progress& progress) {
+  const StopSignals signals;  // also between the runs
   check_options(options);
   const std::string text = read_text(scene_file, std::size_t(16) << 20);
   const SceneSpec spec = parse_scene(text, scene_file.string(), options.set);
   const Scene scene = checked_scene(spec, scene_file);
   const std::filesystem::path scene_folder = scene_file.parent_path();
   const std::vector<Choice> choices = choices_of(spec, scene, scene_folder);
-  const RunnerOptions runner{.folder = folder,
-                             .fingerprint = fmt::format("plan {:016x} set {} seed {} seeds {} tolerance {}",
-                                                        hash_of(text), fmt::join(options.set, "|"),
-                                                        options.seed, options.seeds, options.tolerance_px),
-                             .resume = options.resume,
-                             .parallel = false};
+  const RunnerOptions runner{
+      .folder = folder,
+      .fingerprint = fmt::format("plan {:016x} files {} set {} seed {} seeds {} tolerance {}", hash_of(text),
+                                 files_digest(files_of(spec, scene_folder)), fmt::join(options.set, "|"),
+                                 options.seed, options.seeds, options.tolerance_px),
+      .resume = options.resume,
+      .parallel = false};
   PlanTrials trials(spec, scene_folder, choices, runner, options, progress);
   Plan plan;
   plan.tolerance_px = options.tolerance_px;

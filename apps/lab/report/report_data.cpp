@@ -3,6 +3,7 @@
 #include "apps/lab/chart/chart_report.h"
 #include "apps/lab/report/capture_figures.h"
 #include "apps/lab/report/report_verdicts.h"
+#include "apps/lab/report/stored_atlas.h"
 #include "apps/lab/report/thumbnails.h"
 #include "sim/error.h"
 #include "sim/plain_name.h"
@@ -71,10 +72,29 @@ void add_roundtrip(const fs::path& folder, Json& data) {
   data["figures"] = std::move(figures);
 }
 
-void add_chart(const fs::path& file, Json& data) {
-  data["chart"] = read_json(file);
-  expect_keys(data["chart"], file, {"points", "pareto", "chart", "against"});
-  read_chart(data["chart"]);  // throws where a point is not whole
+void add_chart(Json json, const fs::path& file, Json& data) {
+  expect_keys(json, file, {"points", "pareto", "chart", "against"});
+  read_chart(json);  // throws where a point is not whole
+  data["charts"].push_back(std::move(json));
+}
+
+void add_plan(Json json, const fs::path& file, Json& data) {
+  for (const Json& choice : json.at("choices")) {
+    expect_keys(choice, file, {"name", "effect", "full", "plan", "end", "tried"});
+    for (const Json& tried : choice["tried"])
+      expect_keys(tried, file, {"value", "change_px", "doubt_px", "verdict", "reason"});
+  }
+  data["plans"].push_back(std::move(json));
+  data["plan_names"].push_back(file.stem().string());
+}
+
+void add_selfcal(Json json, const fs::path& file, Json& data) {
+  for (const Json& device : json.at("devices"))
+    expect_keys(device, file, {"name", "fx", "fy", "cx", "cy", "sigma"});
+  for (const Json& station : json.at("stations"))
+    expect_keys(station, file, {"device", "station", "sightings", "fit_rms_px", "predicted_px"});
+  data["selfcals"].push_back(std::move(json));
+  data["selfcal_names"].push_back(file.stem().string());
 }
 
 void add_atlas(const fs::path& folder, Json& data) {
@@ -93,10 +113,34 @@ void add_atlas(const fs::path& folder, Json& data) {
   }
 }
 
+bool has_keys(const Json& json, const std::vector<const char*>& keys) {
+  return json.is_object() &&
+         std::all_of(keys.begin(), keys.end(), [&](const char* key) { return json.contains(key); });
+}
+
+// By its keys, whatever its name.
 void add_file(const fs::path& file, Json& data) {
-  if (file.filename() == "chart.json") return add_chart(file, data);
   Json json = read_json(file);
-  if (is_board(json)) data["board"] = std::move(json);
+  if (file.filename() == "chart.json" || has_keys(json, {"points", "pareto", "against"}))
+    return add_chart(std::move(json), file, data);
+  if (has_keys(json, {"kept", "dropped", "choices", "tolerance_px", "change_px"}))
+    return add_plan(std::move(json), file, data);
+  if (has_keys(json, {"status", "reason", "count", "devices", "stations", "merged", "dropped"}))
+    return add_selfcal(std::move(json), file, data);
+  if (has_keys(json, {"conditions", "seeds", "methods", "letters"}))
+    data["atlas_references"].push_back(stored_atlas(json, file.stem().string(), file.string()));
+  else if (is_board(json))
+    data["board"] = std::move(json);
+}
+
+// Drawn with what they belong to. A run leaves its reference beside the whole of it.
+bool is_a_part(const fs::path& file) {
+  const fs::path name = file.filename(), folder = file.parent_path();
+  if (name == "reference.json")
+    for (const char* whole : {"chart.json", "plan.json", "atlas.json"})
+      if (fs::exists(folder / whole)) return true;
+  if (name == "atlas.json" && fs::exists(folder / "cells.json")) return true;
+  return name == "cells.json" || name == "figures.json" || name == "live.json";
 }
 
 std::vector<fs::path> json_files(const fs::path& folder) {
@@ -112,9 +156,7 @@ void add_folder(const fs::path& folder, Json& data) {
   if (fs::exists(folder / "manifest.json")) add_capture(folder, data);
   if (fs::exists(folder / "atlas.json") && fs::exists(folder / "cells.json")) add_atlas(folder, data);
   for (const fs::path& file : json_files(folder))
-    if (file.filename() != "cells.json" && file.filename() != "figures.json" &&
-        file.filename() != "live.json")
-      add_file(file, data);
+    if (!is_a_part(file)) add_file(file, data);
 }
 
 std::string title_of(const fs::path& path) {
@@ -138,7 +180,8 @@ Json report_data(const fs::path& path) {
       throw InputError(
           path.string() +
           ": holds nothing to draw, expected a round trip (result.json), a capture "
-          "(manifest.json), a calibration from boards, chart.json, or atlas.json and cells.json");
+          "(manifest.json), a calibration from boards, a self-calibration, a plan, a chart, atlas.json and "
+          "cells.json, or a stored reference of these");
     data["verdicts"] = verdicts_of(data);
   } catch (const Json::exception& error) {
     throw InputError(

@@ -54,7 +54,39 @@ Json chart_verdict(const Json& chart) {
   for (const Json& p : chart["points"])  // the front ends with the least error
     if (!chart["pareto"].empty() && p.at("label") == chart["pareto"].back())
       add_fact(facts, "least error", p.at("error_px"), "px rms");
-  return {{"of", "speed against accuracy"}, {"status", ""}, {"reason", ""}, {"facts", facts}};
+  return {{"of", "speed against accuracy: " + chart.at("chart").get<std::string>()},
+          {"status", ""},
+          {"reason", ""},
+          {"facts", facts}};
+}
+
+Json plan_verdict(const Json& plan, const std::string& name) {
+  Json facts = Json::array();
+  add_fact(facts, "effects kept", plan.at("kept").size(), "");
+  add_fact(facts, "effects dropped", plan.at("dropped").size(), "");
+  add_fact(facts, "changes the answer, on fresh seeds at full cost", plan.at("change_px"), "px rms");
+  add_fact(facts, "give or take", plan.value("doubt_px", Json()), "px rms");
+  add_fact(facts, "allowed", plan.at("tolerance_px"), "px rms");
+  add_fact(facts, "full", plan.value("seconds_full", Json()), "s");
+  add_fact(facts, "planned", plan.value("seconds_plan", Json()), "s");
+  const std::string weak = plan.value("full_is_weak", "");
+  return {{"of", "plan: " + name},
+          {"status", weak.empty() ? "ok" : "weak"},
+          {"reason", weak.empty() ? "" : "the full scene's own answer: " + weak},
+          {"facts", facts}};
+}
+
+Json selfcal_verdict(const Json& selfcal, const std::string& name) {
+  Json facts = Json::array();
+  add_fact(facts, "numbers that the pixels give", member(selfcal, "count", "given"), "");
+  add_fact(facts, "numbers asked for", member(selfcal, "count", "needed"), "");
+  add_fact(facts, "devices", selfcal.at("devices").size(), "");
+  add_fact(facts, "stations", selfcal.at("stations").size(), "");
+  add_fact(facts, "fit", selfcal.value("fit_rms_px", Json()), "px rms");
+  return {{"of", "self-calibration: " + name},
+          {"status", selfcal.at("status")},
+          {"reason", selfcal.at("reason")},
+          {"facts", facts}};
 }
 
 Json atlas_verdict(const Json& summary) {
@@ -88,8 +120,15 @@ Json verdicts_of(const Json& data) {
   if (data.contains("estimate"))
     for (const Json& p : data["estimate"].at("projectors")) verdicts.push_back(projector_verdict(p));
   if (data.contains("board")) verdicts.push_back(board_verdict(data["board"]));
-  if (data.contains("chart")) verdicts.push_back(chart_verdict(data["chart"]));
+  const Json none = Json::array();
+  for (std::size_t k = 0; k < data.value("selfcals", none).size(); ++k)
+    verdicts.push_back(selfcal_verdict(data["selfcals"][k], data["selfcal_names"][k]));
+  for (std::size_t k = 0; k < data.value("plans", none).size(); ++k)
+    verdicts.push_back(plan_verdict(data["plans"][k], data["plan_names"][k]));
+  for (const Json& chart : data.value("charts", none)) verdicts.push_back(chart_verdict(chart));
   if (data.contains("atlas")) verdicts.push_back(atlas_verdict(data["atlas"]["summary"]));
+  for (const Json& atlas : data.value("atlas_references", none))
+    verdicts.push_back(atlas_verdict(atlas.at("summary")));
   return verdicts;
 }
 

@@ -3,6 +3,8 @@
 #include "apps/lab/chart/chart_report.h"
 #include "apps/lab/chart/chart_svg.h"
 #include "apps/lab/report/board_figures.h"
+#include "apps/lab/report/plan_figures.h"
+#include "apps/lab/report/selfcal_figures.h"
 #include "apps/lab/report/svg_atlas.h"
 #include "apps/lab/report/svg_chart.h"
 #include "apps/lab/report/svg_maps.h"
@@ -118,6 +120,23 @@ void add_trial_figures(const Json& f, std::vector<StaticFigure>& figures) {
   }
 }
 
+// What a page may hold any number of.
+void add_several(const Json& data, std::vector<StaticFigure>& figures) {
+  const Json none = Json::array();
+  const Json selfcals = data.value("selfcals", none), plans = data.value("plans", none),
+             charts = data.value("charts", none);
+  for (std::size_t k = 0; k < selfcals.size(); ++k)
+    add_selfcal_figure(selfcals[k], text(data["selfcal_names"][k]), figures);
+  for (std::size_t k = 0; k < plans.size(); ++k)
+    add_plan_figure(plans[k], text(data["plan_names"][k]), figures);
+  for (const Json& chart : charts)
+    figures.push_back({charts.size() == 1 ? "chart" : "chart_" + text(chart["chart"]),
+                       "Speed against accuracy", chart_svg(read_chart(chart)), ""});
+  for (const Json& atlas : data.value("atlas_references", none))
+    figures.push_back({"atlas_" + text(atlas["name"]), "Outcomes as stored: " + text(atlas["name"]),
+                       atlas_svg(atlas["cells"], "laterna"), ""});
+}
+
 }  // namespace
 
 std::string StaticFigure::file_bytes() const { return svg.empty() ? bytes_of_data_uri(image) : svg; }
@@ -127,8 +146,7 @@ std::vector<StaticFigure> static_figures(const Json& data) try {
   for (const Json& view : data.value("views", Json::array())) add_pictures(view, figures);
   if (data.contains("figures")) add_trial_figures(data["figures"], figures);
   if (data.contains("board")) add_board_figures(data["board"], figures);
-  if (data.contains("chart"))
-    figures.push_back({"chart", "Speed against accuracy", chart_svg(read_chart(data["chart"])), ""});
+  add_several(data, figures);
   if (data.contains("atlas"))
     for (const std::string& method : methods_of(data["atlas"]["cells"]))
       figures.push_back(

@@ -39,7 +39,7 @@ function heatMap(cells) {
         y2: (d) => d.y + 1,
         inset: 0.75,
         fill: (d) => outcomeColours[outcomeOf(d.cell)],
-        href: (d) => link(d.cell.index),
+        href: (d) => (d.cell.command ? link(d.cell.index) : null),
         title: (d) => `${condition(d.cell)}\n${outcomeWords[outcomeOf(d.cell)]}: ${d.cell.letters}`,
       }),
       P.text(rows, {
@@ -67,6 +67,50 @@ function key() {
     outcomes.map((word) =>
       h("li", {}, h("span", { style: `background:${outcomeColours[word]}` }), `${outcomeLetters[word]}: ${outcomeWords[word]}`),
     ),
+  );
+}
+
+// A stored reference has the outcomes, seed by seed, of Laterna's own method, and no page for a cell.
+function referenceMap(cells, where) {
+  const behind = table(
+    `Cells${where}`,
+    [
+      ["condition", (cell) => cell.cell],
+      ["outcome", (cell) => outcomeWords[outcomeOf(cell)]],
+      ["seed by seed", (cell) => h("code", {}, cell.letters)],
+    ],
+    cells,
+  );
+  return figure(
+    `Outcomes of method laterna${where}: one square per condition, by its worst seed where that is silent or crashed, else by most seeds`,
+    heatMap(cells),
+    behind,
+  );
+}
+
+/** The k-th of the stored references of atlases. */
+export function atlasReference(data, k) {
+  const { name, summary, cells } = data.atlas_references[k],
+    hidden = cells.filter((cell) => cell.hidden),
+    count = (word) => (method) => number(data, ["atlas_references", k, "summary", "methods", method, word]);
+  return section(
+    `atlas-reference-${k + 1}`,
+    `Atlas, as stored: ${name}`,
+    table(
+      "Problems by outcome",
+      [["method", (method) => method], ...outcomes.map((word) => [outcomeWords[word], count(word)])],
+      Object.keys(summary.methods),
+    ),
+    key(),
+    referenceMap(
+      cells.filter((cell) => !cell.hidden),
+      ` in ${name}`,
+    ),
+    hidden.length > 0 && [
+      h("h3", {}, "What no data can reveal"),
+      h("p", {}, "Not counted: here a silently wrong answer is the only possible one."),
+      referenceMap(hidden, ` in ${name} where no data can tell`),
+    ],
   );
 }
 

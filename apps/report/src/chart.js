@@ -6,6 +6,15 @@ import { seriesColours } from "./colours.js";
 const shapes = ["circle", "square", "diamond", "triangle", "triangle2"];
 const xLabels = { seconds: "seconds", capture_seconds: "seconds of capture" };
 
+// Stored references hold what holds on every machine: seconds over those of the fastest point, and no commands.
+const isReference = (chart) => chart.points.some((p) => "seconds_ratio" in p);
+const xOf = (chart, p) =>
+  chart.against === "seconds" ? (p.seconds ?? p.seconds_ratio) : (p.x ?? p[chart.against] ?? p.values[chart.against]);
+const xLabel = (chart) =>
+  chart.against === "seconds" && isReference(chart)
+    ? "seconds, over those of the fastest point"
+    : (xLabels[chart.against] ?? chart.against);
+
 // The keys whose values differ within a series: what it sweeps.
 function sweptKeys(points) {
   return Object.keys(points[0].values).filter((key) =>
@@ -16,7 +25,7 @@ function sweptKeys(points) {
 // What can be drawn, with what each point's word is and whether its series is one line.
 function drawable(chart) {
   return [...new Set(chart.points.map((p) => p.series))].flatMap((series) => {
-    const points = chart.points.filter((p) => p.series === series),
+    const points = chart.points.filter((p) => p.series === series).map((p) => ({ ...p, x: xOf(chart, p) })),
       keys = sweptKeys(points),
       rest = keys.filter((key) => key !== chart.against);
     const shown = points.filter((p) => p.x > 0 && p.error_px > 0);
@@ -36,12 +45,12 @@ function pareto(chart, points) {
   const front = points.filter((p) => p.front).sort((a, b) => a.x - b.x),
     xs = points.map((p) => p.x);
   const dash = Math.max(1.01, (Math.max(...xs) / Math.min(...xs)) ** 0.012); // half of a lone bound's length
-  const hint = (p) => `${p.label}\n${format(p.error_px)} px, bound ${format(p.bound_px)} px, ${format(p.seconds)} s`;
+  const hint = (p) => `${p.label}\n${format(p.error_px)} px, bound ${format(p.bound_px)} px, ${format(p.x)} ${xLabel(chart)}`;
   return P.plot({
     height: 480,
     marginLeft: 70,
     marginRight: 90,
-    x: { type: "log", label: xLabels[chart.against] ?? chart.against, grid: true },
+    x: { type: "log", label: xLabel(chart), grid: true },
     y: { type: "log", label: "error over the volume, px rms", grid: true },
     color: { domain: names, range: seriesColours },
     symbol: { domain: names, range: shapes, legend: true },
@@ -94,34 +103,44 @@ function pareto(chart, points) {
   });
 }
 
-export function chart(data) {
-  const c = data.chart,
+/** The k-th of the charts. */
+export function chart(data, k) {
+  const c = data.charts[k],
     points = drawable(c),
-    missing = c.points.length - points.length;
-  const value = (key) => (row) => number(data, ["chart", "points", c.points.indexOf(row), key]);
-  const rows = [...c.points].sort((a, b) => a.seconds - b.seconds);
+    missing = c.points.length - points.length,
+    stored = isReference(c),
+    seconds = stored ? "seconds_ratio" : "seconds";
+  const value = (key) => (row) => number(data, ["charts", k, "points", c.points.indexOf(row), key]);
+  const rows = [...c.points].sort((a, b) => a[seconds] - b[seconds]);
+  const quartiles = [
+    ["lower quartile, px", value("error_low_px")],
+    ["upper quartile, px", value("error_high_px")],
+  ];
+  const said = [
+    ["said", (row) => row.reason ?? "", "said"],
+    ["command", (row) => h("code", {}, row.command)],
+  ];
   return section(
-    "chart",
+    k === 0 ? "chart" : `chart-${k + 1}`,
     `Speed against accuracy: ${c.chart}`,
     points.length > 0 &&
       figure(
-        "Error, both axes logarithmic; bars: quartiles over the seeds; dashed: the bound that noise sets; broad grey and rings: the front, where nothing has less of both",
+        `${c.chart}: error, both axes logarithmic; bars: quartiles over the seeds; dashed: the bound that noise sets; broad grey and rings: the front, where nothing has less of both`,
         pareto(c, points),
       ),
-    missing > 0 && h("p", {}, `${missing} of ${c.points.length} points gave no error to draw: the table says why.`),
+    missing > 0 && h("p", {}, `${missing} of ${c.points.length} points gave no error to draw.`),
     table(
-      "Every point, and the command that measures it",
+      stored ? "Every point, as stored" : "Every point, and the command that measures it",
       [
         ["label", (row) => row.label],
-        ["seconds", value("seconds")],
+        [stored ? "seconds over the fastest" : "seconds", value(seconds)],
         ["error, px", value("error_px")],
-        ["spread, px", value("spread_px")],
+        ...(stored ? quartiles : [["spread, px", value("spread_px")]]),
         ["bound, px", value("bound_px")],
         ["front", (row) => (c.pareto.includes(row.label) ? "yes" : "no")],
         ["refused", value("refused")],
         ["crashed", value("crashed")],
-        ["said", (row) => row.reason ?? "", "said"],
-        ["command", (row) => h("code", {}, row.command)],
+        ...(stored ? [] : said),
       ],
       rows,
     ),

@@ -7,12 +7,17 @@ import { residuals } from "./residuals.js";
 import { projections } from "./projection.js";
 import { board } from "./board.js";
 import { chart } from "./chart.js";
-import { atlas } from "./atlas.js";
+import { plan } from "./plan.js";
+import { selfcal } from "./selfcal.js";
+import { atlas, atlasReference } from "./atlas.js";
 import { live } from "./live.js";
 import css from "./page.css";
 
 const data = JSON.parse(document.getElementById("data").textContent);
 const figures = data.figures;
+
+// A section for each of several.
+const each = (several, draw) => (several ?? []).map((_, k) => (all) => draw(all, k));
 
 const sections = [
   summary,
@@ -23,8 +28,11 @@ const sections = [
   (data.live || data.live_left_out) && live,
   data.board?.cameras.length && data.board.poses.length && boardRig,
   data.board && board,
-  data.chart && chart,
+  ...each(data.selfcals, selfcal),
+  ...each(data.plans, plan),
+  ...each(data.charts, chart),
   data.atlas && atlas,
+  ...each(data.atlas_references, atlasReference),
 ]
   .filter(Boolean)
   .map((draw) => draw(data));
