@@ -78,7 +78,7 @@ double coverage(const BoardCapture& capture, int device) {
 // rms of sqrt(trace) over points; NaN without points. `predict` is pixel_covariance() or its like.
 RangeSigma sigma_over(const RigProblem& problem, const RigFit& fit, const RigCovariance& covariance,
                       int device, const std::vector<glm::dvec3>& points,
-                      const decltype(pixel_covariance)& predict = pixel_covariance) {
+                      decltype(pixel_covariance)& predict = pixel_covariance) {
   RangeSigma r;
   double sum = 0, count = 0;
   for (const glm::dvec3& x : points) {

@@ -14,7 +14,7 @@ BoardRig without_pose(BoardRig rig, int pose) {
 }
 
 // The board's pose in a capture of one pose, from the cameras alone; everything else of the rig stays.
-std::optional<BoardRig> with_pose_from_cameras(const BoardCapture& one, RigModel model, BoardRig rig) {
+std::optional<BoardRig> with_pose_from_cameras(const BoardCapture& one, RigModel model, const BoardRig& rig) {
   for (DeviceModel& device : model.devices) device.held = true;
   model.bend = model.hold_poses = false;
   const auto adjusted = adjust({seen_by_cameras(one), model}, rig);

@@ -32,7 +32,9 @@ TEST(Npy, ValuesStandBehindTheHeader) {
   const std::string bytes = read_text(folder / "a.npy", 1 << 20);
   ASSERT_EQ(bytes.size(), 128 + 6 * sizeof(float));
   EXPECT_EQ(bytes.substr(0, 128), npy_header({2, 3}));
-  EXPECT_EQ(std::memcmp(bytes.data() + 128, values.data(), 6 * sizeof(float)), 0);
+  std::vector<float> stored(6);
+  std::memcpy(stored.data(), bytes.data() + 128, 6 * sizeof(float));
+  EXPECT_EQ(stored, values);
 }
 
 TEST(Npy, AnEmptyTableIsAFileToo) {
