@@ -92,7 +92,6 @@ class LiveView {
     const gl = this.canvas.getContext("webgl2", { antialias: false, preserveDrawingBuffer: true });
     if (!gl) throw new Error("this browser has no WebGL2");
     this.renderer = new Renderer(gl, scene);
-    this.step = 0.01 * Math.hypot(...scene.cameras[0].projector_from_world.map((row) => row[3]).slice(0, 3));
     parent.append(this.canvas, this.panel());
     this.listen();
     this.choose(0, 0);
@@ -103,6 +102,7 @@ class LiveView {
     const { slide, moves } = this.state;
     Object.assign(this.state, initialState(this.scene, c, p), { moves });
     [this.canvas.width, this.canvas.height] = this.state.camera.size;
+    this.step = 0.01 * Math.hypot(...this.state.camera.view.map((row) => row[3]).slice(0, 3)); // the camera's distance from the world's origin
     this.slides = slides(this.scene.projectors[p]);
     this.choice.replaceChildren(...this.slides.map((s) => element("option", {}, s.name)));
     this.devices.camera.selectedIndex = c;
