@@ -40,15 +40,17 @@ template <class T>
 std::optional<GroupPlace> place_of_fringe(const ImageStackView<T>& stack, const PatternGroup& group,
                                           const Pixels& pixels) {
   const std::vector<double>& place_px = pixels.place_px[group.axis];
+  std::vector<glm::dvec2> step;  // of fringe_fit.h's least squares, for (c, s)
+  for (int j = 0; j < group.count; ++j) {
+    const double shift = 2 * std::numbers::pi * j / group.count;
+    step.emplace_back(std::cos(shift), -std::sin(shift));
+  }
   double sum = 0, squares = 0;
   for (std::size_t k = 0; k < place_px.size(); ++k) {
-    double c = 0, s = 0;
-    for (int j = 0; j < group.count; ++j) {
-      const double shift = 2 * std::numbers::pi * j / group.count;
-      const double value = stack.picture(group.first + j)[pixels.index[k]];
-      c += value * std::cos(shift), s -= value * std::sin(shift);
-    }
-    const double turns = std::atan2(s, c) / (2 * std::numbers::pi) - place_px[k] / group.pitch_px;
+    glm::dvec2 cs(0.0);
+    for (int j = 0; j < group.count; ++j)
+      cs += double(stack.picture(group.first + j)[pixels.index[k]]) * step[std::size_t(j)];
+    const double turns = std::atan2(cs.y, cs.x) / (2 * std::numbers::pi) - place_px[k] / group.pitch_px;
     const double off = group.pitch_px * (turns - std::round(turns));
     sum += off, squares += off * off;
   }

@@ -189,6 +189,8 @@ std::string sureness_text(const BoardCalibration& c) {
 
 std::string summary_text(const BoardCalibration& c) {
   const Diagnosis& d = c.diagnosis;
+  int projectors = 0;
+  for (std::size_t n = 0; n < c.devices.size(); ++n) projectors += !is_camera(c.ladder.fit.capture, int(n));
   const std::string held_out = c.held_out().folds.empty() ? "-" : fmt::format("{:.4f}", c.held_out().rms_px);
   std::string text =
       fmt::format("fit {:.4f} px rms, held out {} px rms; {} iterations ({})\n", c.fit_rms_px(), held_out,
@@ -196,7 +198,7 @@ std::string summary_text(const BoardCalibration& c) {
   text += fmt::format(
       "predicted error over {}'s volume, of points fixed on the boards: {:.3f} px by noise alone, {} px by "
       "leaving poses out; of points fixed in the camera's frame, which turns with its centre: {:.3f} px\n",
-      c.devices.back().name, d.predicted_volume_rms_px,
+      projectors > 1 ? "the worst projector" : c.devices.back().name, d.predicted_volume_rms_px,
       d.jackknife_volume_rms_px ? fmt::format("{:.3f}", *d.jackknife_volume_rms_px) : "-",
       d.predicted_volume_camera_frame_rms_px);
   text += fmt::format("weakest: {} (sigma {:.2g} in natural units, gap {:.1g})\n", d.weakest_direction,

@@ -16,8 +16,9 @@ namespace laterna {
 /// "fit_rms_px", "coverage", "prediction_sigma_px": [{"range", "center", "rms", "worst"}]}], "projectors":
 /// [the same and "device_from_camera": 3×4], "board_bend", "parameters", "covariance" (row-major, in their
 /// order), "predicted_volume_px": {"independent", "jackknife", "camera_frame"}, "weakest": {"direction",
-/// "sigma", "gap"}, "correlations", "poses", "dropped", "ladder"}. Device 0 is a camera, the others are
-/// projectors. x_projector = R·x_camera + t in the file's unit of length. Without an estimate the lists are
+/// "sigma", "gap"}, "correlations", "poses", "dropped", "ladder"}. Device 0 is the camera whose frame
+/// the others stand in: x_device = R·x_camera + t in the file's unit of length; other cameras have a
+/// "device_from_camera" too. Without an estimate the lists are
 /// empty and the numbers null; a number that is not finite is null.
 nlohmann::json board_json(const BoardCalibration& calibration);
 
