@@ -2,6 +2,7 @@
 
 #include "calib/gray_crossing.h"
 #include "calib/pair_codes.h"
+#include "calib/pair_kernel.h"
 #include "calib/sum_check.h"
 #include "sim/error.h"
 #include "sim/parallel.h"
@@ -98,19 +99,16 @@ DecodedMap decode(const GrayPictures<T>& pictures) {
 
 template <class T>
 void decode_codes(const GrayPictures<T>& pictures, GrayCodes& codes) {
-  const int columns = pictures.columns.code.stripes, rows = pictures.rows.code.stripes;
+  const PairLimits limits{pictures.limits.white_minus_black, pictures.limits.pair_difference,
+                          pictures.limits.pair_fraction, pictures.columns.code.stripes,
+                          pictures.rows.code.stripes};
   for_segments(pictures, [&](const Segment<T>& segment) {
     std::copy(segment.column.begin(), segment.column.end(),
               codes.column.values.begin() + std::ptrdiff_t(segment.begin));
     std::copy(segment.row.begin(), segment.row.end(),
               codes.row.values.begin() + std::ptrdiff_t(segment.begin));
-    std::uint8_t* valid = codes.valid.values.data() + segment.begin;
-    for (std::size_t i = 0; i < segment.count; ++i) {
-      const float contrast = segment.contrast(i);
-      valid[i] = is_lit(contrast, pictures.limits) &
-                 is_distinct(segment.weakest[i], contrast, pictures.limits) & (segment.column[i] < columns) &
-                 (segment.row[i] < rows);
-    }
+    judge_pairs(segment.white, segment.black, segment.weakest.data(), segment.column.data(),
+                segment.row.data(), limits, segment.count, codes.valid.values.data() + segment.begin);
   });
 }
 

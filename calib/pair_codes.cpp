@@ -10,20 +10,6 @@ namespace {
 
 constexpr std::size_t block_pixels = 4096;  // its words stay in the first-level cache
 
-/// stripe = binary_from_gray(word ^ (bit `base` of word ? mask : 0)), on 16 bits.
-void stripes_of(const WordCode& code, const std::uint8_t* high, const std::uint8_t* low, int low_bits,
-                std::size_t count, std::uint16_t* stripe) {
-  const auto mask = std::uint16_t(code.mask);
-  for (std::size_t i = 0; i < count; ++i) {
-    auto w = std::uint16_t(high[i] << low_bits | low[i]);
-    w = std::uint16_t(w ^ (mask & -(w >> code.base & 1)));
-    w = std::uint16_t(w ^ (w >> 1));
-    w = std::uint16_t(w ^ (w >> 2));
-    w = std::uint16_t(w ^ (w >> 4));
-    stripe[i] = std::uint16_t(w ^ (w >> 8));
-  }
-}
-
 }  // namespace
 
 template <class T>
@@ -50,7 +36,8 @@ void PairPictures<T>::read(std::size_t begin, std::size_t count, std::uint16_t* 
     read_pairs(from_pattern, from_inverse, high_bits, n, bytes[0].data(), weakest + done);
     read_pairs(from_pattern + high_bits, from_inverse + high_bits, low_bits, n, bytes[1].data(),
                weakest + done);
-    stripes_of(code, bytes[0].data(), bytes[1].data(), low_bits, n, stripe + done);
+    stripes_of_words(std::uint16_t(code.mask), code.base, low_bits, bytes[0].data(), bytes[1].data(), n,
+                     stripe + done);
   }
 }
 

@@ -247,20 +247,11 @@ std::vector<double> with_prior(const std::vector<double>& factor, const Intrinsi
   rows.topRows(columns) = Eigen::Map<const RowMajor>(factor.data(), columns, columns);
   for (int i = 0; i < k; ++i) {
     rows(columns + i, i) = prior.inverse_sigma[i];
-    rows(columns + i, columns - 1) = prior.inverse_sigma[i] * (state.parameters[i] - prior.mean[i]);
+    rows(columns + i, columns - 1) = prior.residual(std::size_t(i), state.parameters[i]);
   }
   const Eigen::MatrixXd full = rows.householderQr().matrixQR();
   const RowMajor r = full.topRows(columns).triangularView<Eigen::Upper>();
   return {r.data(), r.data() + r.size()};
-}
-
-double prior_loss(const IntrinsicsPrior& prior, const ProjectorState& state) {
-  double sum = 0;
-  for (std::size_t i = 0; i < prior.mean.size(); ++i) {
-    const double off = prior.inverse_sigma[i] * (state.parameters[i] - prior.mean[i]);
-    sum += off * off;
-  }
-  return sum;
 }
 
 }  // namespace
@@ -279,7 +270,7 @@ std::optional<std::vector<double>> row_factor(const PointTable& points, const Le
     return fill_rows(points, lens, state, loss, begin, end, block);
   };
   auto factor = triangular_factor(rows);
-  if (!factor || points.prior.mean.empty()) return factor;
+  if (!factor || points.prior.empty()) return factor;
   return with_prior(*factor, points.prior, state, rows.columns);
 }
 
@@ -313,7 +304,7 @@ std::optional<double> total_loss(const PointTable& points, const LensGradient& l
       for (std::size_t j = 0; j < count; ++j) sums[k] += loss.rho(s[j]);
     }
   });
-  const double sum = std::accumulate(sums.begin(), sums.end(), prior_loss(points.prior, state));
+  const double sum = std::accumulate(sums.begin(), sums.end(), prior_loss(points.prior, state.parameters));
   if (!std::isfinite(sum)) return std::nullopt;
   return sum;
 }

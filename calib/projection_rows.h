@@ -6,6 +6,7 @@
 #pragma once
 
 #include "calib/correspondences.h"
+#include "calib/intrinsics_prior.h"
 #include "calib/robust_loss.h"
 #include "calib/stacked_qr.h"
 #include "sim/device.h"
@@ -35,12 +36,6 @@ struct ProjectorState {
   Rigid device_from_points;        ///< the points' frame is world, or the normalised one
 };
 ProjectorState state_of(const Device& device);
-
-/// What is known of fx, fy, cx, cy and the lens parameters before any point: Gaussian, independent. Empty:
-/// nothing.
-struct IntrinsicsPrior {
-  std::vector<double> mean, inverse_sigma;
-};
 
 /// Correspondences as columns, in normalised coordinates, sorted by cluster (stable).
 struct PointTable {

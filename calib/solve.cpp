@@ -6,14 +6,17 @@
 #include "calib/lens_left_out.h"
 #include "calib/placement.h"
 #include "calib/residual_structure.h"
+#include "calib/splined_lens.h"
 #include "calib/verify.h"
 #include "sim/error.h"
+#include "sim/spline_knots.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace laterna {
 
@@ -91,6 +94,25 @@ void describe_fit(SolveResult& result, const PointTable& points, const LargeVect
   result.reduced_chi2 = weighted / std::max(1.0, 2 * n - p);
   result.outlier_share = outliers / n;
   result.residual_scale = residual_scale(s, p, loss);
+}
+
+// A spline, with its prior put into `points`, from the lens with k1, k2, p1, p2 that fits best.
+BestRefinement best_spline(const Correspondences& c, PointTable& points,
+                           const WorldNormalisation& normalisation, glm::ivec2 size, const LensGradient& lens,
+                           const GeometryReport& geometry, SolveOptions options) {
+  const std::string splined_model = std::exchange(options.lens_model, "LENSMODEL_OPENCV4");
+  options.start.reset();
+  BestRefinement best =
+      best_refinement(c, points, normalisation, size, LensGradient(options.lens_model), geometry, options);
+  if (!best.refinement) return best;
+  const ProjectorState& lean = best.refinement->state;
+  const std::vector<double> start =
+      spline_like(device_of(lean, size, options.lens_model, normalisation), splined_model);
+  points.prior = spline_prior(start);
+  best.refinement = refine(points, lens, {start, lean.device_from_points},
+                           {options.loss, options.max_iterations, double(std::max(size.x, size.y))});
+  if (!best.refinement) best.refusal = "some points lie behind the projector that fits the others";
+  return best;
 }
 
 // Picks the covariance that the verdict uses, and what it predicts over the estimate's own volume. False
@@ -214,8 +236,9 @@ SolveResult solve(const Correspondences& c, glm::ivec2 size, const SolveOptions&
   const std::string& lens_model = options.known ? options.known->lens.model : options.lens_model;
   const LensGradient lens(lens_model);
   const int p = lens.parameter_count() + 6;
+  const bool spline = is_splined(lens_model) && !options.known;
   SolveResult result;
-  result.free_parameters = options.known ? 6 : p;
+  result.free_parameters = options.known ? 6 : spline ? p - 4 : p;
   result.parameter_names = parameter_names(lens.parameter_count() - 4);
   const GeometryReport geometry = check_geometry(c, result.free_parameters);
   if (geometry.verdict != Geometry::sound) return refused(result, geometry.reason);
@@ -223,7 +246,9 @@ SolveResult solve(const Correspondences& c, glm::ivec2 size, const SolveOptions&
   const WorldNormalisation normalisation = normalisation_of(c.world_points);
   PointTable points = point_table(c, normalisation);
   if (options.known) points.prior = prior_of(*options.known);
-  const BestRefinement best = best_refinement(c, points, normalisation, size, lens, geometry, options);
+  const BestRefinement best = spline
+                                  ? best_spline(c, points, normalisation, size, lens, geometry, options)
+                                  : best_refinement(c, points, normalisation, size, lens, geometry, options);
   if (!best.refinement) return refused(result, best.refusal);
   const Refinement& fit = *best.refinement;
   result.iterations = fit.iterations;

@@ -22,12 +22,14 @@ struct KnownIntrinsics {
 };
 
 struct SolveOptions {
-  std::string lens_model = "LENSMODEL_PINHOLE";  ///< its parameters are solved for, from zero
-  RobustLoss loss;                               ///< none: every residual is believed
-  double tolerance_px = 0.5;                     ///< a predicted volume error above it is `weak`
+  /// Its parameters are solved for, from zero; of a splined one the knots, with fx, fy, cx, cy held and a
+  /// prior (splined_lens.h), from the lens with k1, k2, p1, p2 that fits best.
+  std::string lens_model = "LENSMODEL_PINHOLE";
+  RobustLoss loss;            ///< none: every residual is believed
+  double tolerance_px = 0.5;  ///< a predicted volume error above it is `weak`
   int max_iterations = 500;
   std::uint64_t seed = 1;       ///< of RANSAC
-  std::optional<Device> start;  ///< tried beside the linear starts; of the same lens model
+  std::optional<Device> start;  ///< tried beside the linear starts, unless splined; of the same lens model
   /// The placement alone is asked for: a Gaussian prior on the rest, whose lens model is the one that counts.
   /// Flat scenes will do then.
   std::optional<KnownIntrinsics> known{};
@@ -58,9 +60,10 @@ struct SolveResult {
   bool clusters_suffice = false;
   std::size_t clusters = 0;
 
-  int free_parameters = 0;  ///< that only the points can tell: all of them; 6 where the intrinsics are known
-  double fit_rms_px = 0;    ///< sqrt(mean(du² + dv²)) over all correspondences
-  double reduced_chi2 = 0;  ///< Σ ((du² + dv²)/σ²) / (2n - p)
+  int free_parameters =
+      0;  ///< that only the points can tell: all that are not held; 6 where the intrinsics are known
+  double fit_rms_px = 0;      ///< sqrt(mean(du² + dv²)) over all correspondences
+  double reduced_chi2 = 0;    ///< Σ ((du² + dv²)/σ²) / (2n - p)
   double residual_scale = 0;  ///< residuals over what the sigmas explain; with a robust loss by the median
   double outlier_share = 0;   ///< correspondences with (du² + dv²)/σ² > 13.8, where noise leaves 0.1 %
   double predicted_volume_rms_px = 0;              ///< from `covariance`, over the estimate's own volume grid

@@ -1,6 +1,7 @@
 #include "sim/lens.h"
 
 #include "sim/error.h"
+#include "sim/spline_knots.h"
 
 #include <fmt/format.h>
 
@@ -74,6 +75,19 @@ bool call_mrcal(const mrcal_lensmodel_t& lensmodel, const double* parameters, co
 int lens_parameter_count(const std::string& model) {
   const mrcal_lensmodel_t lensmodel = parse_model(model);
   return mrcal_lensmodel_num_params(&lensmodel) - 4;
+}
+
+std::vector<glm::dvec2> spline_knots(const std::string& model) {
+  const mrcal_lensmodel_t lensmodel = parse_model(model);
+  if (lensmodel.type != MRCAL_LENSMODEL_SPLINED_STEREOGRAPHIC)
+    throw InputError(fmt::format("lens model is \"{}\", expected a splined one", model));
+  const auto& grid = lensmodel.LENSMODEL_SPLINED_STEREOGRAPHIC__config;
+  std::vector<double> ux(grid.Nx), uy(grid.Ny);
+  mrcal_knots_for_splined_models(ux.data(), uy.data(), &lensmodel);
+  std::vector<glm::dvec2> knots;
+  for (const double y : uy)
+    for (const double x : ux) knots.emplace_back(x, y);
+  return knots;
 }
 
 LensProjection::LensProjection(const Intrinsics& intrinsics, const Lens& lens)

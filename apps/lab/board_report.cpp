@@ -41,7 +41,7 @@ Json device_json(const BoardCalibration& c, std::size_t d) {
                {"cy", k.cy},
                {"lens", {{"model", device.lens.model}, {"parameters", device.lens.parameters}}},
                {"sigma", sigma_json(c, device.name)},
-               {"known", bool(c.ladder.fit.model.devices[d].known)},
+               {"known", c.ladder.fit.capture.devices[d].known.has_value()},
                {"sigma_px", c.ladder.fit.sigma_px[d]},
                {"fit_rms_px", c.ladder.fit.rms_px[d]},
                {"coverage", c.diagnosis.devices[d].coverage},
@@ -176,10 +176,13 @@ std::string poses_text(const BoardCalibration& c) {
 std::string sureness_text(const BoardCalibration& c) {
   std::string text = "standard deviation of predicted pixels (noise alone)\n";
   for (std::size_t d = 0; d < c.devices.size(); ++d) {
-    const bool known = c.ladder.fit.model.devices[d].known;
+    const bool known = c.ladder.fit.capture.devices[d].known.has_value();
+    const bool exact = c.ladder.fit.model.devices[d].known;
     text += fmt::format("  {}: sightings in {:.0f} % of the image{}\n", c.devices[d].name,
                         100 * c.diagnosis.devices[d].coverage,
-                        known ? "; its known intrinsics are taken for exact" : "");
+                        !known  ? ""
+                        : exact ? "; its known intrinsics are taken for exact"
+                                : "; its known intrinsics are a prior, with their sigmas");
     for (const RangeSigma& r : c.diagnosis.devices[d].ranges)
       text += fmt::format("    range {:>9.4g}: centre {:.3f}, whole image {:.3f}, worst {:.3f} px\n", r.range,
                           r.center_px, r.rms_px, r.worst_px);
@@ -213,8 +216,8 @@ std::string dropped_text(const BoardCalibration& c) {
     text += fmt::format("dropped: pose {}, corner {}, {}: {:.2f} px off\n", c.dropped_poses[i],
                         c.dropped[i].corner, c.dropped_devices[i], c.dropped_residual_px[i]);
   if (!c.unused_poses.empty())
-    text += fmt::format("not used: pose {}: {} sees fewer than 4 corners\n", fmt::join(c.unused_poses, ", "),
-                        c.devices.empty() ? "the camera" : c.devices[0].name);
+    text +=
+        fmt::format("not used: pose {}: no camera sees 4 corners or more\n", fmt::join(c.unused_poses, ", "));
   return text;
 }
 

@@ -1,6 +1,7 @@
 #include "apps/lab/known_intrinsics.h"
 
 #include "apps/lab/trial_report.h"
+#include "calib/boards/rig.h"
 #include "sim/cameramodel_file.h"
 #include "sim/error.h"
 #include "sim/text_file.h"
@@ -27,6 +28,17 @@ KnownIntrinsics known_of(const StoredEstimate& stored) {
 
 using Entries = std::vector<std::pair<std::string, KnownIntrinsics>>;
 
+// By the parameters' names; 0 for what was held, and for fy that of fx where both are one focal length.
+std::vector<double> sigmas_of(const nlohmann::json& entry, const Lens& lens) {
+  const nlohmann::json& stored = entry.value("sigma", nlohmann::json::object());
+  const bool one_focal_length = stored.contains("fx") && !stored.contains("fy");
+  std::vector<std::string> names = {"fx", one_focal_length ? "fx" : "fy", "cx", "cy"};
+  for (int i = 0; i < int(lens.parameters.size()); ++i) names.push_back(lens_parameter_name(lens.model, i));
+  std::vector<double> sigma;
+  for (const std::string& name : names) sigma.push_back(stored.value(name, 0.0));
+  return sigma;
+}
+
 // Cameras and projectors of a calibration from boards; none where the file is another one.
 Entries entries_of_boards(const std::string& file) {
   Entries entries;
@@ -37,10 +49,11 @@ Entries entries_of_boards(const std::string& file) {
       for (const auto& entry : json.at(kind)) {
         const auto size = entry.at("size").get<std::array<int, 2>>();
         const auto& lens = entry.at("lens");
-        entries.push_back(
-            {entry.at("name"),
-             {{{size[0], size[1]}, entry.at("fx"), entry.at("fy"), entry.at("cx"), entry.at("cy")},
-              {lens.at("model"), lens.at("parameters")}}});
+        KnownIntrinsics known{
+            {{size[0], size[1]}, entry.at("fx"), entry.at("fy"), entry.at("cx"), entry.at("cy")},
+            {lens.at("model"), lens.at("parameters")}};
+        known.sigma = sigmas_of(entry, known.lens);
+        entries.push_back({entry.at("name"), std::move(known)});
       }
     }
   } catch (const nlohmann::json::exception& error) {
@@ -102,6 +115,7 @@ void add_known(BoardCapture& capture, const KnownByName& known) {
                            ? std::string("known intrinsics: of which device, expected NAME=FILE")
                            : fmt::format("known intrinsics: the boards were seen by no \"{}\"", name));
     device->known = Device{name, intrinsics.intrinsics, {}, intrinsics.lens, {}};
+    device->known_sigma = intrinsics.sigma;
   }
 }
 

@@ -15,7 +15,7 @@ using KnownByName = std::map<std::string, KnownIntrinsics>;
 
 /// From words FILE or NAME=FILE. FILE.cameramodel (mrcal's) is exact. Another file is what `laterna calibrate
 /// -o` wrote, of a known scene or of boards: NAME's, or its only one, or all of them by their own names;
-/// standard deviations of estimates of a known scene are kept, as if independent of one another. Placements
+/// standard deviations are kept, as if independent of one another; what was held there is exact. Placements
 /// in the files are passed over. Throws InputError for a file that cannot be read, an estimate without that
 /// name, or a name said twice.
 KnownByName read_known_intrinsics(const std::vector<std::string>& words);

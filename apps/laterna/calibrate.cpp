@@ -19,8 +19,8 @@ namespace laterna {
 namespace {
 
 struct Words {
-  std::vector<std::string> paths;
-  std::string scene, size, out;
+  std::vector<std::string> paths, sizes;
+  std::string scene, out;
   PatternParameters patterns;
   SolveOptions solve;
   BoardWords boards;
@@ -37,6 +37,14 @@ Scene believed_scene(const Words& words, const CaptureManifest& manifest) {
   return load_scene(std::filesystem::path(words.paths[0]) / manifest.scene);
 }
 
+// Of pictures, whose projectors are of one size.
+std::string only_size(const std::vector<std::string>& sizes) {
+  if (sizes.size() > 1)
+    throw InputError(
+        fmt::format("--projector-size stands {} times, expected once for pictures", sizes.size()));
+  return sizes.empty() ? "" : sizes[0];
+}
+
 bool is_table(const std::string& path) {
   return std::filesystem::exists(path) ? !std::filesystem::is_directory(path) : path.ends_with(".csv");
 }
@@ -47,7 +55,8 @@ int run(const Words& words, const Common& common) {
         fmt::format("{} folders, expected one, or --board with a board that stands elsewhere in each",
                     words.paths.size()));
   const std::filesystem::path folder = words.paths[0];
-  const CaptureManifest manifest = manifest_or_pictures(folder, plain_patterns(words.patterns, words.size));
+  const CaptureManifest manifest =
+      manifest_or_pictures(folder, plain_patterns(words.patterns, only_size(words.sizes)));
   const Scene scene = believed_scene(words, manifest);
   SolveOptions options = words.solve;
   options.seed = common.seed;
@@ -118,7 +127,9 @@ void add_calibrate(CLI::App& app, Common& common) {
       "From a board in several places, camera and projectors together (--tolerance-px is 1 then): "
       "laterna calibrate place_* --board chessboard,9x7,75mm,\n"
       "or laterna calibrate board.csv --camera-size 1280x1024 --projector-size 1024x768 with the columns "
-      "pose,corner,board_x,board_y,board_z,cam_x,cam_y,proj_x,proj_y,valid.");
+      "pose,corner,board_x,board_y,board_z,cam_x,cam_y,proj_x,proj_y,valid;\n"
+      "of more devices a line for each sighting, with the columns "
+      "device,pose,corner,board_x,board_y,board_z,x,y,sigma_px.");
   command
       ->add_option(
           "FOLDER", words->paths,
@@ -127,8 +138,12 @@ void add_calibrate(CLI::App& app, Common& common) {
       ->required();
   command->add_option("--scene", words->scene,
                       "Scene with the believed meshes and cameras (default: the folder's own)");
-  command->add_option("--projector-size", words->size,
-                      "WIDTHxHEIGHT, for a folder without a manifest and for a FILE.csv");
+  command
+      ->add_option(
+          "--projector-size", words->sizes,
+          "WIDTHxHEIGHT, for a folder without a manifest and for a FILE.csv; NAME=WIDTHxHEIGHT of each "
+          "for one with the column device")
+      ->take_all();
   command
       ->add_option(
           "--known", words->boards.known,
@@ -151,10 +166,10 @@ void add_calibrate(CLI::App& app, Common& common) {
     }
     const bool told = command->count("--tolerance-px") > 0;
     const BoardOutput output{words->out, told ? std::optional(words->solve.tolerance_px) : std::nullopt};
-    common.exit_code =
-        table ? calibrate_csv(words->paths[0], words->size, words->boards, output, common)
-              : calibrate_board_folders(words->paths, plain_patterns(words->patterns, words->size),
-                                        words->boards, output, common);
+    common.exit_code = table ? calibrate_csv(words->paths[0], words->sizes, words->boards, output, common)
+                             : calibrate_board_folders(
+                                   words->paths, plain_patterns(words->patterns, only_size(words->sizes)),
+                                   words->boards, output, common);
   });
 }
 

@@ -5,8 +5,10 @@
 #include "apps/lab/known_intrinsics.h"
 #include "calib/boards/correspondence_csv.h"
 #include "calib/boards/known_devices.h"
+#include "calib/boards/sighting_csv.h"
 #include "sim/error.h"
 #include "sim/safe_write.h"
+#include "sim/text_file.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -15,11 +17,42 @@ namespace laterna {
 
 namespace {
 
-glm::ivec2 size_of(const std::string& text, const char* option) {
-  if (text.empty())
-    throw InputError(fmt::format("{} is missing, expected WIDTHxHEIGHT such as 1280x1024", option));
-  const auto size = parse_size(text, option);
+glm::ivec2 size_of(const std::vector<std::string>& words, const char* option) {
+  if (words.size() != 1)
+    throw InputError(
+        fmt::format("{} stands {} times, expected one WIDTHxHEIGHT such as 1280x1024", option, words.size()));
+  const auto size = parse_size(words[0], option);
   return {size[0], size[1]};
+}
+
+// NAME=WIDTHxHEIGHT of each device of a table with many, cameras first.
+std::vector<BoardDevice> devices_of(const std::vector<std::string>& cameras,
+                                    const std::vector<std::string>& projectors) {
+  std::vector<BoardDevice> devices;
+  for (const auto& [words, option] :
+       {std::pair(&cameras, "--camera-size"), std::pair(&projectors, "--projector-size")}) {
+    for (const std::string& word : *words) {
+      const std::size_t equals = word.find('=');
+      if (equals == std::string::npos || equals == 0)
+        throw InputError(
+            fmt::format("{}: found \"{}\", expected NAME=WIDTHxHEIGHT for a table with the column "
+                        "device",
+                        option, word));
+      const auto size = parse_size(word.substr(equals + 1), option);
+      devices.push_back({word.substr(0, equals), {size[0], size[1]}, {}, words == &cameras});
+    }
+  }
+  if (cameras.empty())
+    throw InputError("--camera-size is missing, expected NAME=WIDTHxHEIGHT for each camera of the table");
+  return devices;
+}
+
+BoardCapture read_table(const std::string& file, const std::vector<std::string>& cameras,
+                        const std::vector<std::string>& projectors) {
+  const std::string text = read_text(file, std::size_t{256} << 20);
+  if (is_sighting_csv(text)) return parse_sighting_csv(text, file, devices_of(cameras, projectors));
+  return parse_correspondence_csv(text, file, size_of(cameras, "--camera-size"),
+                                  size_of(projectors, "--projector-size"));
 }
 
 // "auto", one word for all devices, or a word for each, joined by commas.
@@ -98,12 +131,19 @@ BoardFolderOptions folder_options(const BoardWords& words, const std::optional<P
 }  // namespace
 
 void add_board_words(CLI::App& command, BoardWords& words) {
-  command.add_option("--camera-size", words.camera_size, "WIDTHxHEIGHT of the camera, for a FILE.csv");
   command
-      .add_option("--lens", words.lens,
-                  "For boards: auto (the ladder decides), pinhole, k1, k1k2, opencv4, opencv5, opencv8, "
-                  "opencv12, terms such as k1+p1p2, or one for each device: CAMERA,PROJECTOR; a device "
-                  "of --known keeps its own")
+      .add_option(
+          "--camera-size", words.camera_sizes,
+          "WIDTHxHEIGHT of the camera, for a FILE.csv; NAME=WIDTHxHEIGHT of each for one with the column "
+          "device, the first being the rig's frame")
+      ->take_all();
+  command
+      .add_option(
+          "--lens", words.lens,
+          "For boards: auto (the ladder decides), pinhole, k1, k1k2, opencv4, opencv5, opencv8, "
+          "opencv12, terms such as k1+p1p2, splined (or mrcal's name of such a model), or one for each "
+          "device: CAMERA,PROJECTOR; a device "
+          "of --known keeps its own")
       ->capture_default_str();
   command
       .add_option("--board-bend", words.bend,
@@ -137,13 +177,13 @@ void add_board_words(CLI::App& command, BoardWords& words) {
                      "For boards: folder for pictures of the points found and of the residuals");
 }
 
-int calibrate_csv(const std::string& file, const std::string& projector_size, const BoardWords& words,
-                  const BoardOutput& output, const Common& common) {
+int calibrate_csv(const std::string& file, const std::vector<std::string>& projector_sizes,
+                  const BoardWords& words, const BoardOutput& output, const Common& common) {
   BoardFolders table;
-  table.capture = read_correspondence_csv(file, size_of(words.camera_size, "--camera-size"),
-                                          size_of(projector_size, "--projector-size"));
+  table.capture = read_table(file, words.camera_sizes, projector_sizes);
   add_known_words(table.capture, words);
-  return finish(calibrate_boards(table.capture, options_of(words, output, 2)), table, words, output, common);
+  const BoardOptions options = options_of(words, output, table.capture.devices.size());
+  return finish(calibrate_boards(table.capture, options), table, words, output, common);
 }
 
 int calibrate_board_folders(const std::vector<std::string>& folders,
@@ -151,7 +191,9 @@ int calibrate_board_folders(const std::vector<std::string>& folders,
                             const BoardOutput& output, const Common& common) {
   BoardFolders found = read_board_folders({folders.begin(), folders.end()}, folder_options(words, patterns),
                                           [&](const std::string& line) { progress(common, line); });
-  if (!words.correspondences.empty()) write_file(words.correspondences, correspondence_csv(found.capture));
+  if (!words.correspondences.empty())
+    write_file(words.correspondences, found.capture.devices.size() == 2 ? correspondence_csv(found.capture)
+                                                                        : sighting_csv(found.capture));
   add_known_words(found.capture, words);
   BoardOptions options = options_of(words, output, found.capture.devices.size());
   if (words.boards.size() > 1) options.ladder.bend = LadderOptions::Bend::off;

@@ -15,7 +15,8 @@ namespace laterna {
 
 /// The command line's own words for boards.
 struct BoardWords {
-  std::string camera_size, lens = "auto", bend = "auto";
+  std::vector<std::string> camera_sizes;
+  std::string lens = "auto", bend = "auto";
   bool one_focal_length = false, fixed_center = false, compare = false;
   std::vector<std::string> boards, known;
   std::string camera, local = "quadratic", correspondences, pictures;
@@ -30,8 +31,8 @@ struct BoardOutput {
 };
 
 /// Calibrates from a table, prints, and writes the JSON. Returns the exit code.
-int calibrate_csv(const std::string& file, const std::string& projector_size, const BoardWords& words,
-                  const BoardOutput& output, const Common& common);
+int calibrate_csv(const std::string& file, const std::vector<std::string>& projector_sizes,
+                  const BoardWords& words, const BoardOutput& output, const Common& common);
 
 /// The same from capture folders; `patterns` is the family of folders without a manifest.
 int calibrate_board_folders(const std::vector<std::string>& folders,

@@ -60,8 +60,11 @@ void fill(Blocks& b, const RigProblem& problem, const BoardRig& rig) {
   for (int d = 0; d < int(rig.devices.size()); ++d) {
     const RigColumns::Of& of = problem.columns.devices[d];
     const std::vector<double> free = free_intrinsics(of.intrinsics, rig.devices[d].parameters);
-    if (!free.empty())
-      b.global.push_back({Slot::Kind::intrinsics, d, b.append(free), int(free.size()), of.intrinsics[0]});
+    if (!free.empty()) {
+      const int first =
+          *std::find_if(of.intrinsics.begin(), of.intrinsics.end(), [](int c) { return c >= 0; });
+      b.global.push_back({Slot::Kind::intrinsics, d, b.append(free), int(free.size()), first});
+    }
     if (of.pose < 0) continue;
     double* place = b.append(block_of(rig.devices[d].device_from_camera));
     b.global.push_back({Slot::Kind::place, d, place, 6, of.pose});
@@ -155,6 +158,38 @@ class PoseResidual : public ceres::CostFunction {
   const int pose_;
 };
 
+// (k - mean)/sigma of one device's free intrinsics.
+class PriorResidual : public ceres::CostFunction {
+ public:
+  PriorResidual(const IntrinsicsPrior& prior, const std::vector<int>& columns, const Slot& slot)
+      : prior_(prior), size_(slot.size) {
+    for (std::size_t i = 0; i < columns.size(); ++i)
+      if (columns[i] >= 0) terms_.push_back({i, columns[i] - slot.column});
+    set_num_residuals(int(terms_.size()));
+    mutable_parameter_block_sizes()->push_back(size_);
+  }
+
+  bool Evaluate(double const* const* values, double* residuals, double** jacobians) const override {
+    const bool rows = jacobians && jacobians[0];
+    if (rows) std::fill_n(jacobians[0], terms_.size() * std::size_t(size_), 0.0);
+    for (std::size_t n = 0; n < terms_.size(); ++n) {
+      const auto& [parameter, at] = terms_[n];
+      residuals[n] = prior_.residual(parameter, values[0][at]);
+      if (rows) jacobians[0][n * std::size_t(size_) + std::size_t(at)] = prior_.inverse_sigma[parameter];
+    }
+    return true;
+  }
+
+ private:
+  struct Term {
+    std::size_t parameter;
+    int at;
+  };
+  const IntrinsicsPrior& prior_;
+  const int size_;
+  std::vector<Term> terms_;
+};
+
 void build(ceres::Problem& ceres_problem, const RigProblem& problem, const BoardRig& start,
            const Blocks& blocks) {
   for (int k = 0; k < problem.pose_count(); ++k) {
@@ -164,8 +199,13 @@ void build(ceres::Problem& ceres_problem, const RigProblem& problem, const Board
     ceres_problem.AddResidualBlock(new PoseResidual(problem, start, blocks.global, k), nullptr, data);
     if (!blocks.poses.empty()) ceres_problem.SetManifold(blocks.poses[k], new PoseManifold);
   }
-  for (const Slot& slot : blocks.global)
+  for (const Slot& slot : blocks.global) {
     if (slot.is_pose() && problem.pose_count() > 0) ceres_problem.SetManifold(slot.data, new PoseManifold);
+    if (slot.kind != Slot::Kind::intrinsics || problem.model.devices[slot.device].prior.empty()) continue;
+    ceres_problem.AddResidualBlock(new PriorResidual(problem.model.devices[slot.device].prior,
+                                                     problem.columns.devices[slot.device].intrinsics, slot),
+                                   nullptr, slot.data);
+  }
 }
 
 ceres::Solver::Options solver_options(const Blocks& blocks, int max_iterations) {
@@ -208,6 +248,10 @@ bool finish(const RigProblem& problem, Adjustment& result) {
     result.pose_factors.push_back(std::move(*factor));
     for (const double x : *s) result.loss += problem.loss.rho(x);
   }
+  const std::vector<double> priors = prior_rows(problem, result.rig);
+  const std::size_t columns = std::size_t(problem.columns.count) + 1;
+  for (std::size_t last = columns - 1; last < priors.size(); last += columns)
+    result.loss += priors[last] * priors[last];
   return std::isfinite(result.loss);
 }
 

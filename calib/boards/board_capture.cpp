@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace laterna {
 
@@ -47,6 +48,15 @@ void validate(const BoardCapture& capture) {
     if (found != device.size)
       throw InputError(fmt::format("{}: the known intrinsics are of {}x{} px, expected {}x{}", device.name,
                                    found.x, found.y, device.size.x, device.size.y));
+    const std::size_t sigmas = device.known_sigma.size(),
+                      parameters = 4 + device.known->lens.parameters.size();
+    if (sigmas > 0 && sigmas != parameters)
+      throw InputError(
+          fmt::format("{}: {} sigmas of the known intrinsics, expected {}", device.name, sigmas, parameters));
+    for (const double sigma : device.known_sigma)
+      if (!(sigma >= 0) || !std::isfinite(sigma))
+        throw InputError(fmt::format("{}: a sigma of the known intrinsics is {}, expected a number from 0",
+                                     device.name, sigma));
   }
   for (const Sighting& s : capture.sightings) {
     const bool in_range = s.device >= 0 && s.device < int(capture.devices.size()) && s.pose >= 0 &&
@@ -59,6 +69,16 @@ void validate(const BoardCapture& capture) {
     }
     validate(s, capture.devices[s.device], capture.pose_labels[s.pose]);
   }
+}
+
+void index_poses(BoardCapture& capture) {
+  std::map<int, int> index;
+  for (const Sighting& s : capture.sightings) index.emplace(s.pose, 0);
+  for (auto& [label, at] : index) {
+    at = capture.pose_count();
+    capture.pose_labels.push_back(label);
+  }
+  for (Sighting& s : capture.sightings) s.pose = index.at(s.pose);
 }
 
 BoardExtent extent_of(const std::vector<Sighting>& sightings) {

@@ -15,8 +15,12 @@ namespace laterna {
 struct BoardDevice {
   std::string name;
   glm::ivec2 size{0, 0};          ///< W, H in pixels
-  std::optional<Device> known{};  ///< intrinsics and lens that are held; its placement is passed over
+  std::optional<Device> known{};  ///< intrinsics and lens; its placement is passed over
   bool is_camera = false;         ///< it sees the board; device 0 does in any case
+  /// Standard deviations of what is known: fx, fy, cx, cy (px), lens parameters, independent of one another;
+  /// 0 is exact (as in solve.h). Empty, or all 0: exact, and held. Else a prior, and solved for with the
+  /// rest.
+  std::vector<double> known_sigma{};
 };
 
 /// The camera's sighting at which a projector's pixel was read. Its error e moves that pixel by slope·e,
@@ -44,8 +48,9 @@ struct BoardExtent {
   glm::dvec2 center{0.0}, half_size{1.0};
 };
 
-/// Devices, poses and sightings. The frame of device 0 is the rig's: it must be a camera that sees every
-/// pose. Lengths are in one unit, whichever it is; translations come out in it.
+/// Devices, poses and sightings. The frame of device 0 is the rig's: it must be a camera; a pose that
+/// it does not see hangs on another camera's. Lengths are in one unit, whichever it is; translations come out
+/// in it.
 struct BoardCapture {
   std::vector<BoardDevice> devices;
   std::vector<int> pose_labels;  ///< the file's own numbers
@@ -59,6 +64,10 @@ struct BoardCapture {
 /// not positive, known intrinsics are unsound or of another size, or a pixel lies outside its device's image
 /// by more than a tenth of the size.
 void validate(const BoardCapture& capture);
+
+/// Sightings whose `pose` is the file's own number get indices into pose_labels, which become these numbers
+/// in their order.
+void index_poses(BoardCapture& capture);
 
 /// The extent of all board points in x and y.
 BoardExtent extent_of(const std::vector<Sighting>& sightings);

@@ -25,12 +25,14 @@ RigModel generous_model(const BoardCapture& capture) {
   return model;
 }
 
-// Without the poses of which the camera sees fewer than 4 corners.
+// Without the poses of which every camera sees fewer than 4 corners.
 BoardCapture usable_poses(const BoardCapture& capture, std::vector<int>& unused_labels) {
-  std::vector<int> corners(capture.pose_labels.size(), 0), usable;
-  for (const Sighting& s : capture.sightings) corners[s.pose] += s.device == 0;
+  std::vector<char> seen(capture.pose_labels.size(), 0);
+  std::vector<int> usable;
+  for (int d = 0; d < int(capture.devices.size()); ++d)
+    for (const int k : is_camera(capture, d) ? poses_seen_by(capture, d) : std::vector<int>{}) seen[k] = 1;
   for (int k = 0; k < capture.pose_count(); ++k) {
-    if (corners[k] >= 4)
+    if (seen[k])
       usable.push_back(k);
     else
       unused_labels.push_back(capture.pose_labels[k]);

@@ -34,7 +34,7 @@ struct BoardCalibration {
   std::vector<std::string> dropped_devices;  ///< of each, its device's name,
   std::vector<int> dropped_poses;            ///< the file's number of its pose,
   std::vector<double> dropped_residual_px;   ///< and |residual| under the model that found it
-  std::vector<int> unused_poses;             ///< labels of poses that device 0 sees fewer than 4 corners of
+  std::vector<int> unused_poses;  ///< labels of poses that every camera sees fewer than 4 corners of
 
   double fit_rms_px() const;        ///< of all projectors, sqrt(mean(du² + dv²))
   const HeldOut& held_out() const;  ///< of the winning rung; without folds where there is none

@@ -32,17 +32,6 @@ void append(const CsvLine& line, int pose_label, std::vector<Sighting>& sighting
   sightings.push_back(s);
 }
 
-// The file's own numbers become indices.
-void index_poses(BoardCapture& capture) {
-  std::map<int, int> index;
-  for (const Sighting& s : capture.sightings) index.emplace(s.pose, 0);
-  for (auto& [label, at] : index) {
-    at = capture.pose_count();
-    capture.pose_labels.push_back(label);
-  }
-  for (Sighting& s : capture.sightings) s.pose = index.at(s.pose);
-}
-
 }  // namespace
 
 BoardCapture parse_correspondence_csv(std::string_view text, const std::string& file_name,

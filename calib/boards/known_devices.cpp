@@ -25,8 +25,9 @@ Correspondences points_of(const RigFit& fit, int d, const std::vector<Rigid>& ta
 }
 
 std::string twin_of(const RigFit& fit, int d, const Correspondences& points, const std::string& what) {
-  const Device& known = *fit.capture.devices[d].known;
-  const std::string twin = place(points, {known.intrinsics, known.lens}).ambiguity;
+  const BoardDevice& device = fit.capture.devices[d];
+  const std::string twin =
+      place(points, {device.known->intrinsics, device.known->lens, device.known_sigma}).ambiguity;
   return twin.empty() ? "" : fmt::format("{}{}: {}", fit.capture.devices[d].name, what, twin);
 }
 
@@ -36,8 +37,11 @@ DeviceModel device_model(const BoardDevice& device, const std::vector<std::strin
   if (!device.known) return model_of_terms(terms);
   DeviceModel model;
   model.lens_model = device.known->lens.model;
-  model.lens_free.assign(device.known->lens.parameters.size(), false);
-  model.known = true;
+  model.known =
+      std::all_of(device.known_sigma.begin(), device.known_sigma.end(), [](double s) { return s == 0; });
+  model.lens_free.assign(device.known->lens.parameters.size(), !model.known);
+  if (!model.known)
+    model.prior = prior_of({device.known->intrinsics, device.known->lens, device.known_sigma});
   return model;
 }
 

@@ -7,7 +7,8 @@
 
 namespace laterna {
 
-/// The model of a device: its known lens, held, with a free place; or the one of these terms.
+/// The model of a device: its known lens with a free place, held or, where its sigmas are not 0, with them as
+/// a prior; or the one of these terms.
 DeviceModel device_model(const BoardDevice& device, const std::vector<std::string>& terms);
 
 bool all_known(const BoardCapture& capture);

@@ -1,6 +1,7 @@
 #include "calib/boards/lens_ladder.h"
 
 #include "calib/boards/known_devices.h"
+#include "calib/boards/rig_splines.h"
 #include "sim/error.h"
 #include "sim/parallel.h"
 
@@ -14,7 +15,7 @@ namespace laterna {
 
 namespace {
 
-using Terms = std::vector<std::vector<std::string>>;  // of each device
+using Terms = DeviceTerms;
 
 struct Candidate {
   Terms terms;
@@ -118,7 +119,9 @@ std::string what_moved(const BoardRig& before, const BoardRig& after, const Boar
 void evaluate(Candidate& c, const BoardCapture& capture, const BoardRig& start, bool estimate_sigma,
               const LadderOptions& options) {
   c.rung.terms = c.terms, c.rung.bend = c.bend, c.rung.added = c.added;
-  c.fit = fit_rig(capture, model_of(c.terms, c.bend, options, capture), start, estimate_sigma);
+  RigModel model = model_of(c.terms, c.bend, options, capture);
+  add_spline_priors(model, start);
+  c.fit = fit_rig(capture, model, start, estimate_sigma);
   if (!c.fit) return;
   c.rung.fit_rms_px = c.fit->rms_px;
   c.rung.held_out = hold_out_poses(c.fit->capture, c.fit->model, c.fit->adjustment.rig);
@@ -157,16 +160,24 @@ BoardRig nearer_start(const BoardCapture& capture, const BoardRig& start, bool e
   return rig;
 }
 
+[[noreturn]] void refuse_lens(const Terms& terms) {
+  std::string names;
+  for (const auto& t : terms) names += (names.empty() ? "" : " and ") + terms_text(t);
+  throw Refusal(fmt::format("the solver does not converge with the lens {}", names));
+}
+
 Candidate first_rung(const BoardCapture& capture, const BoardRig& start, bool estimate_sigma,
                      const Terms& terms, const LadderOptions& options) {
   Candidate first{terms, options.bend == LadderOptions::Bend::on, ""};
-  evaluate(first, capture, nearer_start(capture, start, estimate_sigma, terms, options), estimate_sigma,
-           options);
-  if (!first.fit) {
-    std::string names;
-    for (const auto& t : terms) names += (names.empty() ? "" : " and ") + terms_text(t);
-    throw Refusal(fmt::format("the solver does not converge with the lens {}", names));
+  const Terms lean = lean_terms(terms);
+  BoardRig rig = nearer_start(capture, start, estimate_sigma, lean, options);
+  if (lean != terms) {
+    const auto fit = fit_rig(capture, model_of(lean, first.bend, options, capture), rig, estimate_sigma);
+    if (!fit) refuse_lens(lean);
+    rig = with_splines(*fit, first.terms);
   }
+  evaluate(first, capture, rig, estimate_sigma, options);
+  if (!first.fit) refuse_lens(first.terms);
   first.rung.chosen = true;
   return first;
 }

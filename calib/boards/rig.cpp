@@ -1,6 +1,8 @@
 #include "calib/boards/rig.h"
 
 #include "sim/error.h"
+#include "sim/lens.h"
+#include "sim/spline_knots.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -48,6 +50,13 @@ Rigid turned(const Rigid& rigid, const double* step) {
 }  // namespace
 
 DeviceModel model_of_terms(const std::vector<std::string>& terms) {
+  DeviceModel model;
+  if (terms.size() == 1 && is_splined(terms[0])) {
+    model.lens_model = terms[0];
+    model.lens_free.assign(std::size_t(lens_parameter_count(terms[0])), true);
+    model.held_core = true;
+    return model;
+  }
   int last = 0;
   std::vector<bool> free(12, false);
   for (const std::string& name : terms) {
@@ -57,7 +66,6 @@ DeviceModel model_of_terms(const std::vector<std::string>& terms) {
     for (int i = term->begin; i < term->end; ++i) free[i] = true;
     last = std::max(last, term->end);
   }
-  DeviceModel model;
   const int count = last == 0 ? 0 : last <= 4 ? 4 : last <= 5 ? 5 : last <= 8 ? 8 : 12;
   if (count > 0) model.lens_model = fmt::format("LENSMODEL_OPENCV{}", count);
   free.resize(count);
@@ -65,8 +73,14 @@ DeviceModel model_of_terms(const std::vector<std::string>& terms) {
   return model;
 }
 
+bool are_splined(const std::vector<std::string>& terms) {
+  return terms.size() == 1 && (terms[0] == "splined" || is_splined(terms[0]));
+}
+
 std::vector<std::string> lens_terms(const std::string& word) {
   std::vector<std::string> terms;
+  if (is_splined(word)) lens_parameter_count(word);  // or throws
+  if (are_splined({word})) return {word};
   for (const Word& w : all_words) {
     if (word != w.word) continue;
     for (int i = 0; i < w.terms; ++i) terms.emplace_back(all_terms[i].name);
@@ -78,7 +92,7 @@ std::vector<std::string> lens_terms(const std::string& word) {
     if (!find_term(terms.back())) {
       throw InputError(fmt::format(
           "lens is \"{}\", expected auto, pinhole, k1, k1k2, k1k2p1p2, opencv4, opencv5, opencv8, opencv12, "
-          "or terms out of k1, k2, p1p2, k3, k456, s1234 joined by +",
+          "splined, or terms out of k1, k2, p1p2, k3, k456, s1234 joined by +",
           word));
     }
     begin = end + 1;
@@ -97,9 +111,11 @@ RigColumns columns_of(const RigModel& model) {
     RigColumns::Of of;
     of.intrinsics.assign(4 + m.lens_free.size(), -1);
     if (!m.held && !m.known) {
-      of.intrinsics[0] = columns.count++;
-      of.intrinsics[1] = m.one_focal_length ? of.intrinsics[0] : columns.count++;
-      for (int i = 2; i < 4 && !m.fixed_center; ++i) of.intrinsics[i] = columns.count++;
+      if (!m.held_core) {
+        of.intrinsics[0] = columns.count++;
+        of.intrinsics[1] = m.one_focal_length ? of.intrinsics[0] : columns.count++;
+        for (int i = 2; i < 4 && !m.fixed_center; ++i) of.intrinsics[i] = columns.count++;
+      }
       for (std::size_t i = 0; i < m.lens_free.size(); ++i)
         if (m.lens_free[i]) of.intrinsics[4 + i] = columns.count++;
     }
@@ -114,6 +130,7 @@ std::string lens_parameter_name(const std::string& lens_model, int index) {
   constexpr std::array<const char*, 12> names = {"k1", "k2", "p1", "p2", "k3", "k4",
                                                  "k5", "k6", "s1", "s2", "s3", "s4"};
   if (lens_model.starts_with("LENSMODEL_OPENCV") && index < int(names.size())) return names[index];
+  if (is_splined(lens_model)) return fmt::format("knot{}_{}", index / 2, index % 2 == 0 ? 'x' : 'y');
   return fmt::format("lens{}", index);
 }
 
@@ -174,6 +191,7 @@ BoardRig fitted_to(BoardRig rig, const RigModel& model, const BoardCapture& capt
   for (std::size_t d = 0; d < rig.devices.size(); ++d) {
     const DeviceModel& m = model.devices[d];
     std::vector<double>& k = rig.devices[d].parameters;
+    if (m.held_core && k.size() != 4 + m.lens_free.size() && !m.prior.empty()) k = m.prior.mean;
     k.resize(4 + m.lens_free.size(), 0.0);
     if (m.one_focal_length) k[0] = k[1] = std::sqrt(k[0] * k[1]);
     if (m.fixed_center)

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "calib/boards/board_capture.h"
+#include "calib/intrinsics_prior.h"
 #include "sim/device.h"
 
 #include <string>
@@ -21,17 +22,24 @@ struct DeviceModel {
   bool fixed_center = false;      ///< cx, cy stay at the middle of the image
   bool known = false;             ///< intrinsics and lens stay at their start, the place is free
   bool held = false;              ///< nothing is free, neither intrinsics nor place
+  bool held_core = false;         ///< fx, fy, cx, cy stay at their start, as with a splined lens
+  IntrinsicsPrior prior{};        ///< of what is free; empty: nothing is known
 };
 
 /// Distortion terms in the order in which they stand in OpenCV's models: k1, k2, p1p2 (one term), k3, k456
 /// (rational, one term), s1234 (thin prism, one term). The smallest of PINHOLE, OPENCV4, 5, 8 and 12 that has
-/// all of them, with the others held at 0. Throws InputError for an unknown term.
+/// all of them, with the others held at 0. Or one splined model by mrcal's name, its core held and all knots
+/// free. Throws InputError for an unknown term.
 DeviceModel model_of_terms(const std::vector<std::string>& terms);
 
 /// The terms that a word of the command line stands for: pinhole (none), k1, k1k2, k1k2p1p2 or opencv4,
-/// opencv5, opencv8, opencv12, or several terms joined by + (k1+p1p2). Throws InputError, naming the words,
-/// for another one.
+/// opencv5, opencv8, opencv12, several terms joined by + (k1+p1p2), splined, or mrcal's name of a splined
+/// model (itself). Throws InputError, naming the words, for another one.
 std::vector<std::string> lens_terms(const std::string& word);
+
+/// Whether they are `splined`, whose grid depends on what the device sees (rig_splines.h), or a splined
+/// model.
+bool are_splined(const std::vector<std::string>& terms);
 
 /// "pinhole" or "k1+k2".
 std::string terms_text(const std::vector<std::string>& terms);
@@ -80,7 +88,7 @@ RigColumns columns_of(const RigModel& model);
 /// "camera fx", "projector k1", "projector rotation_x", "bend_x": one per global column.
 std::vector<std::string> column_names(const RigModel& model, const BoardCapture& capture);
 
-/// k1, k2, p1, ... for OpenCV's models; lens0, ... for others.
+/// k1, k2, p1, ... for OpenCV's models; knot7_x, knot7_y for splined ones; lens0, ... for others.
 std::string lens_parameter_name(const std::string& lens_model, int index);
 
 /// Moves a rig: intrinsics and bend by addition, rotations R = exp([w]×)·R̂ in the target frame, translations
@@ -91,7 +99,7 @@ BoardRig moved(const BoardRig& rig, const RigColumns& columns, const std::vector
 std::vector<double> global_step(const BoardRig& from, const BoardRig& to, const RigColumns& columns);
 
 /// Fits a rig's intrinsics to a model: lens parameters added as 0 or cut, held and known ones kept, fx and fy
-/// made one, the centre put into the middle of the image.
+/// made one, the centre put into the middle of the image; a spline that comes new starts at its prior's mean.
 BoardRig fitted_to(BoardRig rig, const RigModel& model, const BoardCapture& capture);
 
 /// Device d of the rig as the rest of Laterna knows it; device_from_world is device_from_camera, lengths in

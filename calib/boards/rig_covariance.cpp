@@ -33,9 +33,12 @@ bool append_pose(const std::vector<double>& factor, int globals, RigCovariance& 
 std::vector<double> eliminated_factor(const RigProblem& problem, const Adjustment& adjustment) {
   const int n = problem.columns.count + 1, skip = problem.pose_columns();
   const auto poses = Eigen::Index(adjustment.pose_factors.size());
-  RowMajor rows = RowMajor::Zero(std::max<Eigen::Index>(poses * n, n), n);
+  const std::vector<double> prior = prior_rows(problem, adjustment.rig);
+  const Eigen::Index priors = Eigen::Index(prior.size()) / n;
+  RowMajor rows = RowMajor::Zero(std::max<Eigen::Index>(poses * n + priors, n), n);
   for (Eigen::Index k = 0; k < poses; ++k)
     rows.middleRows(k * n, n) = square(adjustment.pose_factors[k], skip + n).bottomRightCorner(n, n);
+  rows.middleRows(poses * n, priors) = Map(prior.data(), priors, n);
   const Eigen::HouseholderQR<RowMajor> qr(rows);
   const RowMajor r = qr.matrixQR().topRows(n).triangularView<Eigen::Upper>();
   return values_of(r);

@@ -1,5 +1,7 @@
 #include "calib/boards/rig_fit.h"
 
+#include "calib/boards/rig_covariance.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -20,12 +22,28 @@ std::vector<double> squared_px(const BoardCapture& capture, const RigModel& mode
   return squared;
 }
 
-int free_parameters(const RigFit& fit, int device) {
-  const RigColumns columns = columns_of(fit.model);
+// The covariance of the global parameters where some have a prior; empty without, or where it is singular.
+std::vector<double> covariance_with_priors(const RigFit& fit, const RigProblem& problem) {
+  const bool any = std::any_of(fit.model.devices.begin(), fit.model.devices.end(),
+                               [](const DeviceModel& m) { return !m.prior.empty(); });
+  const auto covariance = any ? rig_covariance(problem, fit.adjustment) : std::nullopt;
+  return covariance ? covariance->global : std::vector<double>{};
+}
+
+// What the residuals of a device have adapted to. A parameter with a prior counts by the share that the
+// sightings say of it, 1 - variance/prior variance.
+double free_parameters(const RigFit& fit, const RigColumns& columns, const std::vector<double>& covariance,
+                       int device) {
   const RigColumns::Of& of = columns.devices[device];
-  int count = of.pose >= 0 ? 6 : 0;
-  for (std::size_t i = 0; i < of.intrinsics.size(); ++i)
-    count += of.intrinsics[i] >= 0 && (i == 0 || of.intrinsics[i] != of.intrinsics[i - 1]);
+  const IntrinsicsPrior& prior = fit.model.devices[device].prior;
+  double count = of.pose >= 0 ? 6 : 0;
+  for (std::size_t i = 0; i < of.intrinsics.size(); ++i) {
+    const int at = of.intrinsics[i];
+    if (at < 0 || (i > 0 && at == of.intrinsics[i - 1])) continue;
+    const bool weighed = !prior.empty() && !covariance.empty();
+    const double kept = weighed ? covariance[std::size_t(at) * (std::size_t(columns.count) + 1)] : 0;
+    count += 1 - (weighed ? std::min(1.0, kept * prior.inverse_sigma[i] * prior.inverse_sigma[i]) : 0);
+  }
   if (device > 0) return count;
   return count + (fit.model.bend ? 2 : 0) + (fit.model.hold_poses ? 0 : 6 * fit.capture.pose_count());
 }
@@ -39,9 +57,12 @@ void describe(RigFit& fit) {
     ++count[fit.capture.sightings[i].device];
   }
   fit.rms_px.clear(), fit.sigma_px.clear();
+  const RigProblem problem(fit.capture, fit.model);
+  const std::vector<double> covariance = covariance_with_priors(fit, problem);
   for (std::size_t d = 0; d < devices; ++d) {
     fit.rms_px.push_back(count[d] > 0 ? std::sqrt(sum[d] / count[d]) : 0);
-    fit.sigma_px.push_back(std::sqrt(sum[d] / std::max(1.0, 2 * count[d] - free_parameters(fit, int(d)))));
+    fit.sigma_px.push_back(std::sqrt(
+        sum[d] / std::max(1.0, 2 * count[d] - free_parameters(fit, problem.columns, covariance, int(d)))));
   }
 }
 

@@ -18,9 +18,10 @@ struct RigFit {
 
 /// Adjusts from `start` (fitted_to() the model first). With `estimate_sigma` the sightings' sigmas come from
 /// the residuals, σ² = Σ(du² + dv²)/(2n - p) for each device, and the adjustment runs again with them: p
-/// counts the device's own free parameters, and for device 0 the poses and the bend too. All devices share
-/// the pooled sigma unless theirs differ by more than a factor of two: residuals are partly the model's
-/// error, which is no reason for weights. None where a point lies behind, or no convergence.
+/// counts the device's own free parameters, and for device 0 the poses and the bend too; one with a prior
+/// counts by the share that the sightings say of it. All devices share the pooled sigma unless theirs differ
+/// by more than a factor of two: residuals are partly the model's error, which is no reason for weights. None
+/// where a point lies behind, or no convergence.
 std::optional<RigFit> fit_rig(const BoardCapture& capture, const RigModel& model, const BoardRig& start,
                               bool estimate_sigma);
 

@@ -22,6 +22,10 @@ void validate(const RigModel& model, const BoardCapture& capture) {
       throw InputError(fmt::format("rig: {} has {} flags of free parameters, expected {}", m.lens_model,
                                    m.lens_free.size(), expected));
     }
+    if (!m.prior.empty() && int(m.prior.mean.size()) != 4 + expected) {
+      throw InputError(fmt::format("rig: {} has a prior of {} parameters, expected {}", m.lens_model,
+                                   m.prior.mean.size(), 4 + expected));
+    }
   }
 }
 
@@ -119,6 +123,22 @@ std::optional<std::vector<double>> squared_residuals(const RigProblem& problem, 
     s.push_back((du * du + dv * dv) / (sighting.sigma_px * sighting.sigma_px));
   }
   return s;
+}
+
+std::vector<double> prior_rows(const RigProblem& problem, const BoardRig& rig) {
+  const std::size_t columns = std::size_t(problem.columns.count) + 1;
+  std::vector<double> rows;
+  for (std::size_t d = 0; d < rig.devices.size(); ++d) {
+    const IntrinsicsPrior& prior = problem.model.devices[d].prior;
+    for (std::size_t i = 0; i < prior.mean.size(); ++i) {
+      const int column = problem.columns.devices[d].intrinsics[i];
+      if (column < 0) continue;
+      rows.resize(rows.size() + columns, 0.0);
+      rows[rows.size() - columns + std::size_t(column)] = prior.inverse_sigma[i];
+      rows.back() = prior.residual(i, rig.devices[d].parameters[i]);
+    }
+  }
+  return rows;
 }
 
 std::optional<std::vector<double>> pose_factor(const RigProblem& problem, const BoardRig& rig, int pose) {

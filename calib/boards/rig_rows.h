@@ -48,6 +48,10 @@ bool predict(const RigProblem& problem, const BoardRig& rig, const Sighting& sig
 std::optional<std::vector<double>> squared_residuals(const RigProblem& problem, const BoardRig& rig,
                                                      int pose);
 
+/// Rows [J_global r] of the priors of free intrinsics, r = (k - mean)/sigma, row-major with columns.count + 1
+/// columns; empty where there are none.
+std::vector<double> prior_rows(const RigProblem& problem, const BoardRig& rig);
+
 /// The triangular factor (stacked_qr.h) of a pose's rows [J_pose J_global r]·√ρ'(s)/σ, r = predicted -
 /// measured. Its lower right corner, below the pose's columns, is the factor with the pose eliminated
 /// (Schur). None where a point lies behind its device.

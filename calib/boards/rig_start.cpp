@@ -79,7 +79,7 @@ std::optional<Adjustment> camera_from_focal(const BoardCapture& capture, double 
   rig.devices.resize(capture.devices.size());
   for (RigDevice& device : rig.devices) device.parameters = {f, f, (size.x - 1) / 2.0, (size.y - 1) / 2.0};
   for (int k = 0; k < capture.pose_count(); ++k) {
-    const auto pose = board_pose(capture, k, rig.devices[0].parameters);
+    const auto pose = board_pose(capture, 0, k, rig.devices[0].parameters);
     if (!pose) return std::nullopt;
     rig.camera_from_board.push_back(*pose);
   }
@@ -95,7 +95,7 @@ std::optional<BoardRig> start_known_camera(const BoardCapture& capture) {
   rig.devices.resize(capture.devices.size());
   rig.devices[0].parameters = state_of(*capture.devices[0].known).parameters;
   for (int k = 0; k < capture.pose_count(); ++k) {
-    const auto pose = board_pose(straight, k, rig.devices[0].parameters);
+    const auto pose = board_pose(straight, 0, k, rig.devices[0].parameters);
     if (!pose) return std::nullopt;
     rig.camera_from_board.push_back(*pose);
   }
@@ -128,11 +128,12 @@ std::string start_known_device(const Device& known, const Correspondences& c, Ri
   return "";
 }
 
-// A device from board points in the camera's frame; the reason where there is none.
-std::string start_device(const BoardCapture& capture, int d, BoardRig& rig) {
+// A device from points of the boards that stand already, in the camera's frame; the reason where there is
+// none.
+std::string start_device(const BoardCapture& capture, const std::vector<char>& stands, int d, BoardRig& rig) {
   Correspondences c;
   for (const Sighting& s : capture.sightings) {
-    if (s.device != d) continue;
+    if (s.device != d || !stands[s.pose]) continue;
     c.world_points.push_back(apply(rig.camera_from_board[s.pose], s.x_board));
     c.projector_pixels.push_back(s.pixel);
     c.sigma_px.push_back(start_sigma_px);
@@ -155,10 +156,45 @@ std::string start_device(const BoardCapture& capture, int d, BoardRig& rig) {
   return "";
 }
 
+// Boards that none but camera d sees, by where it stands; false where there is none of them.
+bool stand_boards(const BoardCapture& straight, int d, std::vector<char>& stands, BoardRig& rig) {
+  bool any = false;
+  for (const int k : poses_seen_by(straight, d)) {
+    if (stands[k]) continue;
+    const auto device_from_board = board_pose(straight, d, k, rig.devices[d].parameters);
+    if (!device_from_board) continue;
+    rig.camera_from_board[k] = compose(inverse(rig.devices[d].device_from_camera), *device_from_board);
+    stands[k] = 1, any = true;
+  }
+  return any;
+}
+
+// Devices from boards that stand and boards from cameras that stand, in turn; the reason where one remains.
+std::string start_others(const BoardCapture& capture, std::vector<char>& stands, BoardRig& rig) {
+  const BoardCapture straight = straightened(capture);
+  std::vector<std::string> missing(capture.devices.size(), "not tried");
+  missing[0].clear();
+  for (bool more = true; more;) {
+    more = false;
+    for (int d = 1; d < int(capture.devices.size()); ++d) {
+      if (missing[d].empty()) continue;
+      missing[d] = start_device(capture, stands, d, rig);
+      if (missing[d].empty() && is_camera(capture, d)) more |= stand_boards(straight, d, stands, rig);
+    }
+  }
+  for (const std::string& reason : missing)
+    if (!reason.empty()) return reason;
+  for (int k = 0; k < capture.pose_count(); ++k)
+    if (!stands[k])
+      return fmt::format("pose {}: no camera sees 4 corners or more of it in front", capture.pose_labels[k]);
+  return "";
+}
+
 }  // namespace
 
-std::optional<Rigid> board_pose(const BoardCapture& capture, int pose, const std::vector<double>& k) {
-  const PosePoints points = points_of(capture, 0, pose);
+std::optional<Rigid> board_pose(const BoardCapture& capture, int device, int pose,
+                                const std::vector<double>& k) {
+  const PosePoints points = points_of(capture, device, pose);
   if (points.board.size() < 4) return std::nullopt;
   const cv::Matx33d matrix(k[0], 0, k[2], 0, k[1], k[3], 0, 0, 1);
   std::vector<cv::Mat> rotations, translations;
@@ -178,18 +214,32 @@ std::optional<Rigid> board_pose(const BoardCapture& capture, int pose, const std
   return std::nullopt;
 }
 
+std::vector<int> poses_seen_by(const BoardCapture& capture, int device) {
+  std::vector<int> corners(capture.pose_labels.size(), 0), seen;
+  for (const Sighting& s : capture.sightings) corners[s.pose] += s.device == device;
+  for (int k = 0; k < capture.pose_count(); ++k)
+    if (corners[k] >= 4) seen.push_back(k);
+  return seen;
+}
+
 RigStart start_rig(const BoardCapture& capture) {
-  if (capture.pose_count() == 0) return {{}, "no pose: the capture has no sighting"};
-  std::optional<BoardRig> rig = start_camera(capture);
+  const std::vector<int> seen = poses_seen_by(capture, 0);
+  if (seen.empty())
+    return {{},
+            fmt::format("no pose: {} sees no board with 4 corners or more", capture.devices.front().name)};
+  std::optional<BoardRig> rig = start_camera(with_poses(capture, seen));
   if (!rig)
     return {{},
             fmt::format("{}: no focal length gives every board a pose in front of it (is a picture mirrored, "
                         "or are all corners of a pose on one line?)",
                         capture.devices[0].name)};
-  for (int d = 1; d < int(capture.devices.size()); ++d) {
-    const std::string refusal = start_device(capture, d, *rig);
-    if (!refusal.empty()) return {{}, refusal};
-  }
+  std::vector<char> stands(capture.pose_labels.size(), 0);
+  std::vector<Rigid> boards(capture.pose_labels.size());
+  for (std::size_t n = 0; n < seen.size(); ++n)
+    boards[seen[n]] = rig->camera_from_board[n], stands[seen[n]] = 1;
+  rig->camera_from_board = std::move(boards);
+  const std::string refusal = start_others(capture, stands, *rig);
+  if (!refusal.empty()) return {{}, refusal};
   return {rig, ""};
 }
 

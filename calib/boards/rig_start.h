@@ -5,6 +5,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace laterna {
 
@@ -21,12 +22,19 @@ struct RigStart {
 ///
 /// A device whose intrinsics are known keeps them and its lens, and starts from its placement (solve.h).
 ///
-/// Refused: no pose, a pose that the camera sees fewer than 4 corners of, another device with too few points
-/// or with all its points in one plane.
+/// A pose that device 0 does not see comes from another camera that stands already, and may in turn place
+/// devices.
+///
+/// Refused: no pose that device 0 sees, a pose that every camera sees fewer than 4 corners of, another device
+/// with too few points or with all its points in one plane.
 RigStart start_rig(const BoardCapture& capture);
 
-/// The pose of the board from the sightings of device 0 in one pose; none where there are fewer than 4, or no
-/// pose has all of them in front.
-std::optional<Rigid> board_pose(const BoardCapture& capture, int pose, const std::vector<double>& pinhole);
+/// The indices of the poses of which a device sees 4 corners or more.
+std::vector<int> poses_seen_by(const BoardCapture& capture, int device);
+
+/// device_from_board from the sightings of a device in one pose, `pinhole` being its fx, fy, cx, cy; none
+/// where there are fewer than 4, or no pose has all of them in front.
+std::optional<Rigid> board_pose(const BoardCapture& capture, int device, int pose,
+                                const std::vector<double>& pinhole);
 
 }  // namespace laterna

@@ -19,7 +19,8 @@ struct BoardMethod {
 
 /// joint: start_rig() and adjust(). stepwise: start_rig() and adjust_stepwise(). opencv-stepwise:
 /// cv::calibrateCamera, then cv::stereoCalibrate with its intrinsics held. opencv-joint: cv::stereoCalibrate
-/// with everything free. mrcal: mrcal_optimize from start_rig() (no outlier rejection, no regularisation).
+/// with everything free. mrcal: mrcal_optimize from start_rig() (no outlier rejection; regularised
+/// where the lens is splined).
 /// OpenCV's iterate up to 500 times: its 30 by default stop early.
 std::span<const BoardMethod> board_methods();
 

@@ -2,6 +2,7 @@
 #include "calib/boards/rig_start.h"
 #include "calib/peers/board_methods.h"
 #include "sim/error.h"
+#include "sim/spline_knots.h"
 
 #include <algorithm>
 #include <cmath>
@@ -111,7 +112,10 @@ BoardRig solve_mrcal(const BoardCapture& capture, const RigModel& model) {
   for (const Rigid& pose : rig.camera_from_board) frames.push_back(pose_of(pose));
   Observations o = observations_of(capture, grid);
   mrcal_problem_selections_t free{};
-  free.do_optimize_intrinsics_core = free.do_optimize_extrinsics = free.do_optimize_frames = true;
+  free.do_optimize_extrinsics = free.do_optimize_frames = true;
+  const bool splined = is_splined(model.devices[0].lens_model);
+  free.do_optimize_intrinsics_core = !splined;
+  free.do_apply_regularization = splined;  // or knots that no point reaches have no value
   free.do_optimize_intrinsics_distortions = !model.devices[0].lens_free.empty();
   free.do_optimize_calobject_warp = model.bend;
   mrcal_calobject_warp_t warp{};

@@ -1,6 +1,7 @@
 // OpenCV's calibration of two devices from boards, as a peer.
 #include "calib/peers/board_methods.h"
 #include "sim/error.h"
+#include "sim/spline_knots.h"
 
 #include <fmt/format.h>
 
@@ -43,6 +44,7 @@ Views views_of(const BoardCapture& capture, const std::vector<int>& devices) {
 }
 
 int flags_of(const DeviceModel& m) {
+  if (is_splined(m.lens_model)) throw Refusal("OpenCV has no splined lens");
   const auto free = [&](std::size_t i) { return i < m.lens_free.size() && m.lens_free[i]; };
   int flags = 0;
   if (!free(0)) flags |= cv::CALIB_FIX_K1;

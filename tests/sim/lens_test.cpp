@@ -1,4 +1,5 @@
 #include "sim/lens.h"
+#include "sim/spline_knots.h"
 
 #include "tests/testing.h"
 
@@ -43,6 +44,68 @@ TEST(Lens, ZeroParametersArePinhole) {
   const glm::dvec3 x(0.3, -0.2, 1.1);
   EXPECT_NEAR(glm::length(*lens.project(x) - *pinhole.project(x)), 0, 1e-12);        // 1000 px × some eps
   EXPECT_NEAR(lens.pixels_per_unit_area(x), pinhole.pixels_per_unit_area(x), 1e-6);  // 2e6 px² × some eps
+}
+
+const std::string small_spline = "LENSMODEL_SPLINED_STEREOGRAPHIC_order=3_Nx=6_Ny=5_fov_x_deg=60";
+
+// A knot's parameters move pixels near its u most, x by the even one and y by the odd one.
+TEST(Lens, KnotsStandWhereTheirParametersAct) {
+  const std::vector<glm::dvec2> knots = spline_knots(small_spline);
+  ASSERT_EQ(knots.size(), 30u);
+  EXPECT_EQ(int(2 * knots.size()), lens_parameter_count(small_spline));
+  const LensProjection plain(rig_camera, {small_spline, std::vector<double>(60, 0.0)});
+  for (const int k : {8, 9, 14, 21}) {  // not of the outermost ring, whose u lie beyond the field of view
+    for (const int axis : {0, 1}) {
+      Lens lens{small_spline, std::vector<double>(60, 0.0)};
+      lens.parameters[2 * k + axis] = 0.01;
+      const LensProjection moved(rig_camera, lens);
+      double most = 0;
+      glm::dvec2 where(0.0), step(0.0);
+      for (double y = -0.4; y <= 0.4; y += 0.01) {
+        for (double x = -0.4; x <= 0.4; x += 0.01) {
+          const glm::dvec2 u(x, y);  // u = 2·tan(θ/2): tan θ = |u|/(1 - |u|²/4)
+          const glm::dvec3 ray(u / (1 - glm::dot(u, u) / 4), 1);
+          const glm::dvec2 d = *moved.project(ray) - *plain.project(ray);
+          if (glm::length(d) > most) most = glm::length(d), where = u, step = d;
+        }
+      }
+      EXPECT_LT(glm::length(where - knots[k]), 0.01) << k;  // the grid of u
+      EXPECT_GT(step[axis], 0.4 * 0.01 * 625);              // (2/3)² of it at the knot of a cubic B-spline
+      EXPECT_NEAR(step[1 - axis], 0, 1e-9);
+    }
+  }
+}
+
+TEST(Lens, SplinedGradientsAreDerivatives) {
+  const LensGradient lens(small_spline);
+  ASSERT_EQ(lens.parameter_count(), 64);
+  std::vector<double> k = {625.6, 626.0, 317.9, 241.4};
+  for (int i = 0; i < 60; ++i) k.push_back(0.01 * std::sin(3.0 * i));
+  const glm::dvec3 x(0.13, -0.21, 1.1);
+  double pixel[2], dx[6];
+  std::vector<double> dk(128);
+  ASSERT_TRUE(lens.project(k, x, pixel, dx, dk.data()));
+  constexpr double step = 1e-6;
+  for (int i = 0; i < 64; ++i) {
+    std::vector<double> more = k, less = k;
+    more[i] += step, less[i] -= step;
+    double a[2], b[2];
+    ASSERT_TRUE(lens.project(more, x, a, nullptr, nullptr) && lens.project(less, x, b, nullptr, nullptr));
+    for (int r = 0; r < 2; ++r)  // linear in each: rounding of 600 px over the step
+      EXPECT_NEAR(dk[64 * r + i], (a[r] - b[r]) / (2 * step), 1e-6) << i;
+  }
+  for (int i = 0; i < 3; ++i) {
+    glm::dvec3 more = x, less = x;
+    more[i] += step, less[i] -= step;
+    double a[2], b[2];
+    ASSERT_TRUE(lens.project(k, more, a, nullptr, nullptr) && lens.project(k, less, b, nullptr, nullptr));
+    for (int r = 0; r < 2; ++r) EXPECT_NEAR(dx[3 * r + i], (a[r] - b[r]) / (2 * step), 1e-5) << i;
+  }
+}
+
+TEST(Lens, KnotsOfAnotherModelAreRefused) {
+  EXPECT_THAT(testing::input_error([] { spline_knots("LENSMODEL_OPENCV4"); }),
+              ::testing::HasSubstr("LENSMODEL_OPENCV4"));
 }
 
 TEST(Lens, UnprojectInvertsProjectAndAgreesWithMrcal) {

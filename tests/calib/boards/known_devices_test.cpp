@@ -90,6 +90,53 @@ TEST(KnownDevices, AKnownCameraMakesTheProjectorSurer) {
   EXPECT_NE(known.devices[1].intrinsics.fx, free.devices[1].intrinsics.fx);
 }
 
+// Known to sigmas: what is told of the intrinsics is drawn about the truth as often as the pixels are.
+TEST(KnownDevices, SigmasMakeAPriorAndTheCovarianceHoldsIt) {
+  auto random = generator();
+  synthetic::BoardTruth truth = synthetic::board_truth(scene_of(2), random);
+  const std::vector<double> sigma = {4, 4, 3, 3, 0.004, 0.01, 0.0005, 0.0005};
+  BoardOptions options;
+  options.estimate_sigma = false;
+  options.tolerance_px = 100;
+  options.ladder.bend = LadderOptions::Bend::off;
+  std::normal_distribution<double> normal;
+  double sum = 0;
+  constexpr int trials = 40, parameters = 8 + 8 + 6;
+  for (int n = 0; n < trials; ++n) {
+    BoardCapture told = synthetic::with_noise(truth.capture, random);
+    for (int d = 0; d < 2; ++d) {
+      Device known = device_of(truth.rig, truth.model, truth.capture, d);
+      Intrinsics& k = known.intrinsics;
+      for (double* value : {&k.fx, &k.fy, &k.cx, &k.cy}) *value += sigma[value - &k.fx] * normal(random);
+      for (int i = 0; i < 4; ++i) known.lens.parameters[i] += sigma[4 + i] * normal(random);
+      told.devices[d].known = known;
+      told.devices[d].known_sigma = sigma;
+    }
+    const BoardCalibration c = calibrate_boards(told, options);
+    ASSERT_NE(c.status, Status::refused) << c.reason;
+    ASSERT_EQ(c.covariance.globals, parameters);
+    const RigFit& fit = c.ladder.fit;
+    sum += testing::mahalanobis(global_step(fit.adjustment.rig, truth.rig, columns_of(fit.model)),
+                                c.covariance.global);
+    for (int i = 0; i < 4; ++i) EXPECT_LT(c.sigma[i], sigma[i]);  // the boards add to what was known
+  }
+  // χ²: the mean of 40 with 22 degrees of freedom has a standard deviation of sqrt(44/40) = 1.05.
+  EXPECT_NEAR(sum / trials, parameters, 4 * 1.05);
+}
+
+TEST(KnownDevices, SigmasOfZeroHold) {
+  auto random = generator();
+  synthetic::BoardTruth truth = synthetic::board_truth(scene_of(3), random);
+  know_all(truth);
+  for (BoardDevice& device : truth.capture.devices) device.known_sigma.assign(8, 0.0);
+  BoardOptions options;
+  options.ladder.bend = LadderOptions::Bend::off;
+  EXPECT_EQ(calibrate_boards(truth.capture, options).covariance.globals, 6);
+  truth.capture.devices[0].known_sigma.pop_back();
+  EXPECT_THAT(testing::input_error([&] { calibrate_boards(truth.capture); }),
+              HasSubstr("camera: 7 sigmas of the known intrinsics, expected 8"));
+}
+
 TEST(KnownDevices, AFarBoardHasTwoPlacementsAndSaysSo) {
   auto random = generator();
   synthetic::BoardTruth truth = synthetic::board_truth(scene_of(1), random);

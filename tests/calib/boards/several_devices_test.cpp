@@ -82,6 +82,42 @@ TEST(SeveralDevices, ASecondCameraMakesTheProjectorSurer) {
   EXPECT_LT(place_sigma(t, true), place_sigma(t, false));
 }
 
+// Poses 0 to 3 before both cameras, 4 and 5 before the second one alone.
+BoardCapture partly_seen(const testing::BoardTruth& t, std::mt19937_64& random) {
+  BoardCapture capture = testing::with_noise(t.capture, random);
+  std::erase_if(capture.sightings, [](const Sighting& s) { return s.device == 0 && s.pose >= 4; });
+  return capture;
+}
+
+TEST(SeveralDevices, APoseThatTheFirstCameraDoesNotSeeHangsOnAnother) {
+  auto random = testing::generator();
+  const auto t = testing::board_truth(two_cameras(), random);
+  BoardOptions options;
+  options.terms.assign(t.rig.devices.size(), {});
+  const BoardCapture capture = partly_seen(t, random);
+  const BoardCalibration all = calibrate_boards(capture, options);
+  ASSERT_NE(all.status, Status::refused) << all.reason;
+  EXPECT_TRUE(all.unused_poses.empty());
+  EXPECT_EQ(all.held_out().folds.size(), 6u);
+  const RigColumns columns = columns_of(all.ladder.fit.model);
+  const auto step = global_step(all.ladder.fit.adjustment.rig, t.rig, columns);
+  for (std::size_t i = 0; i < step.size(); ++i)
+    EXPECT_LT(std::abs(step[i]), 5 * all.sigma[i]) << all.parameter_names[i];
+  const BoardCalibration fewer = calibrate_boards(with_poses(capture, {0, 1, 2, 3}), options);
+  ASSERT_NE(fewer.status, Status::refused) << fewer.reason;
+  EXPECT_LT(all.sigma[columns.devices[2].intrinsics[0]], fewer.sigma[columns.devices[2].intrinsics[0]]);
+}
+
+TEST(SeveralDevices, ACameraThatSharesNoBoardWithTheOthersIsRefused) {
+  auto random = testing::generator();
+  const auto t = testing::board_truth(two_cameras(), random);
+  BoardCapture capture = partly_seen(t, random);
+  std::erase_if(capture.sightings, [](const Sighting& s) { return s.device > 0 && s.pose < 4; });
+  const BoardCalibration c = calibrate_boards(capture);
+  EXPECT_EQ(c.status, Status::refused);
+  EXPECT_NE(c.reason.find("projector: "), std::string::npos) << c.reason;
+}
+
 // Held-out errors are of projector pixels: a second camera's own are not among them.
 TEST(SeveralDevices, HeldOutCountsProjectorsAlone) {
   auto random = testing::generator();
