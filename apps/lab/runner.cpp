@@ -178,6 +178,8 @@ StopSignals::~StopSignals() {
   sigaction(SIGTERM, &before_term, nullptr);
 }
 
+bool StopSignals::asked() { return stop_signals_alive > 0 && stop_asked; }
+
 RunOutcome run_jobs(const std::vector<Job>& jobs, const RunnerOptions& options, const Progress& progress) {
   std::error_code failed;
   fs::create_directories(options.folder, failed);
@@ -228,7 +230,7 @@ RunOutcome run_jobs(const std::vector<Job>& jobs, const RunnerOptions& options, 
     for (std::size_t n = 0; n < open.size(); ++n) one(n);
   if (fault) std::rethrow_exception(fault);
   for (const JobOutcome& job : run.jobs) run.done += job.done;
-  run.interrupted = run.done < jobs.size();
+  run.interrupted = run.done < jobs.size() || StopSignals::asked();
   return run;
 }
 

@@ -30,14 +30,16 @@ struct RunnerOptions {
 };
 
 /// While one lives, SIGINT and SIGTERM only ask to stop, once each: run_jobs() then begins no job. Those that
-/// live inside another add nothing to it, so that a command of several runs holds one over all of them. Not
-/// for several threads.
+/// live inside another add nothing to it, so that a command holds one over all its runs, and until its result
+/// is written. Not for several threads.
 class StopSignals {
  public:
   StopSignals();
   ~StopSignals();
   StopSignals(const StopSignals&) = delete;
   StopSignals& operator=(const StopSignals&) = delete;
+  /// Whether a signal came since the outermost one that lives was made; false where none lives.
+  static bool asked();
 };
 
 /// How a job ended.
@@ -50,7 +52,7 @@ struct JobOutcome {
 struct RunOutcome {
   std::vector<JobOutcome> jobs;  ///< in the order of the jobs
   std::size_t done = 0;
-  bool interrupted = false;  ///< by SIGINT or SIGTERM: the rest can be resumed
+  bool interrupted = false;  ///< by SIGINT or SIGTERM, be it in the last job: the run can be resumed
 };
 
 /// Runs the jobs that the journal has no end of. FOLDER/journal.jsonl gets a line when a job begins and one,

@@ -11,6 +11,8 @@
 
 #include <gmock/gmock.h>
 
+#include <csignal>
+
 namespace laterna {
 namespace {
 
@@ -133,6 +135,19 @@ TEST(Atlas, ACellIsTheSameAlone) {
     }
   const Atlas sampled = run_atlas(file, folder / "some", {.seed = 9, .sample = 4});
   EXPECT_EQ(sampled.cells.size(), 4u);
+}
+
+TEST(Atlas, AnInterruptAfterTheLastCellIsHeard) {
+  const ScratchFolder folder;
+  const auto file = write_text(folder / "a.toml", spec);
+  const Atlas stopped = run_atlas(file, folder / "a", {}, [](const std::string& line) {
+    if (line.starts_with("10 of 10 cells")) std::raise(SIGINT);
+  });
+  EXPECT_TRUE(stopped.interrupted);
+  EXPECT_EQ(stopped.done, 10u);
+  const Atlas resumed = run_atlas(file, folder / "a", {.resume = true});
+  EXPECT_FALSE(resumed.interrupted);
+  EXPECT_EQ(atlas_cells(resumed, "a"), atlas_cells(run_atlas(file, folder / "whole", {}), "a"));
 }
 
 // A cell of pictures leaves one: the camera's 400 px shrunk by 2, and as much again for the decoded columns.

@@ -246,6 +246,7 @@ Plan make_plan(const std::filesystem::path& scene_file, const std::filesystem::p
     jointly(search);
     confirm(search, options);
     report_choices(search, spec);
+    plan.interrupted = StopSignals::asked();
   } catch (const PlanInterrupted&) {
     plan.interrupted = true;
   }

@@ -145,6 +145,19 @@ TEST(Chart, AnInterruptLeavesWhatIsDone) {
   EXPECT_EQ(chart.points.size(), chart.done);
 }
 
+TEST(Chart, AnInterruptAfterTheLastPointIsHeard) {
+  const ScratchFolder folder;
+  const auto file = write_text(folder / "s.toml", sweep);
+  const Chart stopped = run_chart(file, folder / "a", {}, [](const std::string& line) {
+    if (line.starts_with("5 of 5 points")) std::raise(SIGINT);
+  });
+  EXPECT_TRUE(stopped.interrupted);
+  EXPECT_EQ(stopped.done, 5u);
+  const Chart resumed = run_chart(file, folder / "a", {.resume = true});
+  EXPECT_FALSE(resumed.interrupted);
+  EXPECT_EQ(results(resumed), results(run_chart(file, folder / "whole", {})));
+}
+
 TEST(Chart, APointAloneIsThePointAmongOthers) {
   const ScratchFolder folder;
   const auto file = write_text(folder / "s.toml", sweep);

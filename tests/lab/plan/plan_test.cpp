@@ -138,6 +138,28 @@ TEST(Plan, AnInterruptLeavesWhatIsDone) {
   EXPECT_THAT(read_text(journal, 1 << 20), HasSubstr("result"));
 }
 
+// Told of all the last run's trials, a person presses ctrl-C: nothing is left but to write the scene.
+TEST(Plan, AnInterruptAfterTheLastTrialIsHeard) {
+  const ScratchFolder folder;
+  const auto scene = write_text(folder / "s.toml", small);
+  const auto ends_a_run = [](const std::string& line) { return line.ends_with(", 0:00 left"); };
+  int runs = 0;
+  const Plan whole = make_plan(scene, folder / "whole", {.tolerance_px = 0.05, .seeds = 2},
+                               [&](const std::string& line) { runs += ends_a_run(line); });
+  int left = runs;
+  const Plan stopped =
+      make_plan(scene, folder / "a", {.tolerance_px = 0.05, .seeds = 2}, [&](const std::string& line) {
+        if (ends_a_run(line) && --left == 0) std::raise(SIGINT);
+      });
+  EXPECT_FALSE(whole.interrupted);
+  EXPECT_EQ(left, 0);
+  EXPECT_TRUE(stopped.interrupted);
+  const Plan resumed = make_plan(scene, folder / "a", {.tolerance_px = 0.05, .seeds = 2, .resume = true},
+                                 [](const std::string& line) { ADD_FAILURE() << line; });  // nothing to run
+  EXPECT_FALSE(resumed.interrupted);
+  EXPECT_EQ(results(resumed), results(whole));
+}
+
 // With a tolerance near 0, nothing that moves light can be dropped, and the report says why.
 TEST(Plan, WhatNoiseDoesNotLetTellStays) {
   const ScratchFolder folder;
