@@ -2,6 +2,7 @@
 // ran.
 #pragma once
 
+#include "apps/lab/files_digest.h"
 #include "apps/lab/simulation.h"
 
 #include <nlohmann/json.hpp>
@@ -20,11 +21,12 @@ struct Job {
 };
 
 struct RunnerOptions {
-  std::filesystem::path folder;  ///< of the journal; made where it is not there
-  std::string fingerprint;     ///< of all that the results depend on beside the ids: the specification's text
-  bool resume = false;         ///< go on where the journal ends
-  bool parallel = true;        ///< false: one after the other, for jobs that measure seconds
-  std::string noun = "jobs";   ///< for progress: "cells", "points"
+  std::filesystem::path folder;     ///< of the journal; made where it is not there
+  std::string fingerprint;          ///< of the words that the results depend on beside the ids
+  std::vector<FileDigest> files{};  ///< that they depend on: the specification first
+  bool resume = false;              ///< go on where the journal ends
+  bool parallel = true;             ///< false: one after the other, for jobs that measure seconds
+  std::string noun = "jobs";        ///< for progress: "cells", "points"
   bool stop_at_error = false;  ///< an exception of a job ends the run and is thrown; the job stays to be done
   int most_deaths = 2;         ///< of the process in one job, which then counts as crashed
 };
@@ -62,8 +64,9 @@ struct RunOutcome {
 /// process. Progress comes at most every two seconds, with the time left.
 ///
 /// Throws InputError where the folder holds a journal and `resume` is off, or it holds none and `resume` is
-/// on; where the journal is of another fingerprint, or is no journal; where it cannot be written. A last line
-/// cut short is no fault, and neither is a journal of which nothing else was written yet.
+/// on; where the journal is of another fingerprint, or is no journal; where a file has changed since it was
+/// begun, by name; where it cannot be written. A last line cut short is no fault, and neither is a journal of
+/// which nothing else was written yet.
 RunOutcome run_jobs(const std::vector<Job>& jobs, const RunnerOptions& options,
                     const Progress& progress = {});
 

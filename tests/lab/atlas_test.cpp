@@ -7,7 +7,7 @@
 #include "sim/image_file.h"
 #include "sim/safe_write.h"
 #include "sim/text_file.h"
-#include "tests/testing.h"
+#include "tests/lab/changed_files.h"
 
 #include <gmock/gmock.h>
 
@@ -166,26 +166,14 @@ TEST(Atlas, ACellOfPicturesLeavesOneToLookAt) {
 }
 
 // A run is not gone on with where the scene, or the mesh that it names, is not what it was.
-TEST(Atlas, AChangedSceneOrMeshIsNotResumed) {
+TEST(Atlas, AChangedFileIsNotGoneOnWith) {
   const ScratchFolder folder;
-  const std::string scene =
-      "[[mesh]]\nfile = \"flat.obj\"\n[[projector]]\nsize = [32, 20]\nthrow_ratio = 1\nposition = [0, 0, 2]\n"
-      "look_at = [0, 0, 0]\nup = [0, 1, 0]\n[[camera]]\nsize = [40, 25]\nfov_x_deg = 40\nposition = [0.3, 0, "
-      "2]\n"
-      "look_at = [0, 0, 0]\nup = [0, 1, 0]\n";
-  const std::string mesh = "v -2 -2 0\nv 2 -2 0\nv 0 2 0\nf 1 2 3\n";
   const auto file = write_text(
       folder / "a.toml", "[[grid]]\nname = \"a\"\nkind = \"pictures\"\nseeds = 1\nscene = \"s.toml\"\n");
-  write_text(folder / "s.toml", scene), write_text(folder / "flat.obj", mesh);
+  testing::write_roof_scene(folder.path());
   run_atlas(file, folder / "out", {});
-  const auto resume = [&] { run_atlas(file, folder / "out", {.resume = true}); };
-  EXPECT_NO_THROW(resume());
-  write_text(folder / "s.toml", scene + "# another word\n");
-  EXPECT_THAT(input_error(resume), HasSubstr("a file that it names has changed"));
-  write_text(folder / "s.toml", scene), write_text(folder / "flat.obj", mesh + "# another word\n");
-  EXPECT_THAT(input_error(resume), HasSubstr("a file that it names has changed"));
-  write_text(folder / "flat.obj", mesh);
-  EXPECT_NO_THROW(resume());
+  testing::expect_each_change_refused({file, folder / "s.toml", folder / "roof.obj"},
+                                      [&] { run_atlas(file, folder / "out", {.resume = true}); });
 }
 
 TEST(Atlas, BadSpecificationsAreNamed) {

@@ -172,7 +172,7 @@ TEST(Runner, BadInput) {
   EXPECT_THAT(input_error([&] { run_jobs(squares(2, worked), options); }), HasSubstr("--resume"));
   resumed.fingerprint = "g";
   EXPECT_THAT(input_error([&] { run_jobs(squares(2, worked), resumed); }),
-              HasSubstr("another specification"));
+              HasSubstr("begun with other words"));
   std::filesystem::create_directories(folder / "b");
   testing::write_text(folder / "b" / "journal.jsonl", "not a journal\nat all\n");
   resumed.folder = folder / "b";

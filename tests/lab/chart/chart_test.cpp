@@ -3,7 +3,7 @@
 
 #include "apps/lab/chart/chart_report.h"
 #include "sim/text_file.h"
-#include "tests/testing.h"
+#include "tests/lab/changed_files.h"
 
 #include <gmock/gmock.h>
 
@@ -156,6 +156,17 @@ TEST(Chart, AnInterruptAfterTheLastPointIsHeard) {
   const Chart resumed = run_chart(file, folder / "a", {.resume = true});
   EXPECT_FALSE(resumed.interrupted);
   EXPECT_EQ(results(resumed), results(run_chart(file, folder / "whole", {})));
+}
+
+TEST(Chart, AChangedFileIsNotGoneOnWith) {
+  const ScratchFolder folder;
+  const auto file =
+      write_text(folder / "a.toml",
+                 "[[grid]]\nname = \"a\"\nkind = \"pictures\"\nseeds = 1\nrepeats = 1\nscene = \"s.toml\"\n");
+  testing::write_roof_scene(folder.path());
+  run_chart(file, folder / "out", {});
+  testing::expect_each_change_refused({file, folder / "s.toml", folder / "roof.obj"},
+                                      [&] { run_chart(file, folder / "out", {.resume = true}); });
 }
 
 TEST(Chart, APointAloneIsThePointAmongOthers) {

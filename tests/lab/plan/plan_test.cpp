@@ -4,7 +4,7 @@
 #include "sim/scene_build.h"
 #include "sim/scene_file.h"
 #include "sim/text_file.h"
-#include "tests/testing.h"
+#include "tests/lab/changed_files.h"
 
 #include <gmock/gmock.h>
 
@@ -158,6 +158,16 @@ TEST(Plan, AnInterruptAfterTheLastTrialIsHeard) {
                                  [](const std::string& line) { ADD_FAILURE() << line; });  // nothing to run
   EXPECT_FALSE(resumed.interrupted);
   EXPECT_EQ(results(resumed), results(whole));
+}
+
+TEST(Plan, AChangedFileIsNotGoneOnWith) {
+  const ScratchFolder folder;
+  const auto scene = testing::write_roof_scene(folder.path());
+  PlanOptions options{.tolerance_px = 1, .seeds = 2};
+  make_plan(scene, folder / "a", options, [](const std::string&) { std::raise(SIGINT); });
+  options.resume = true;
+  testing::expect_each_change_refused({scene, folder / "roof.obj"},
+                                      [&] { make_plan(scene, folder / "a", options); });
 }
 
 // With a tolerance near 0, nothing that moves light can be dropped, and the report says why.
