@@ -230,6 +230,15 @@ TEST(Atlas, TheReferenceComesOutAgain) {
   EXPECT_EQ(c.bad, 0);
 }
 
+// Of many points, the hundred thousand.
+TEST(Atlas, TheReferenceOfManyPointsComesOutAgain) {
+  const ScratchFolder folder;
+  const Compared c = compare_with("many_points.json", {"many points: points=100000 "}, folder);
+  EXPECT_EQ(c.seeds, 12);
+  EXPECT_EQ(c.differ, 0);  // errors are within 1.3 of what is predicted on the median; verdicts change at 5
+  EXPECT_EQ(c.bad, 0);
+}
+
 // Of the pictures, those with other frames, a scaler, and what no data can reveal: whole round trips.
 TEST(Atlas, TheReferenceOfPicturesComesOutAgain) {
   const ScratchFolder folder;
