@@ -148,6 +148,7 @@ TEST(Command, SetChangesKeysOfTheScene) {
   EXPECT_EQ(laterna("check dome.toml --set effects.shadow=false", scratch.path()).exit_code, 0);
   const auto wrong = laterna("check dome.toml --set effects.shadows=false", scratch.path());
   EXPECT_EQ(wrong.exit_code, 2);
+  EXPECT_THAT(wrong.err, HasSubstr("--set effects.shadows: unknown key"));
   EXPECT_THAT(wrong.err, HasSubstr("did you mean \"shadow\""));
   EXPECT_EQ(laterna("check dome.toml --set effects", scratch.path()).exit_code, 2);
 }
