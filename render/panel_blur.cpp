@@ -175,12 +175,26 @@ class Spreader {
   std::vector<double> sum_;
 };
 
+// No fewer than the entries that a region's will be spread to: memory that grows step by step is handed back
+// to the system with each region, and costs more to get anew than the spreading.
+std::size_t most_entries(const LightRows& rows, const PanelBlur& blur) {
+  double widest_px = 0, most = 0;
+  for (const DiscShare& disc : blur.discs) widest_px = std::max(widest_px, disc.diameter_px);
+  for (const LightEntry& e : rows.entries) {
+    const double across = std::min(std::hypot(double(e.footprint_px), widest_px), double(most_cells_across));
+    most += (across + 2) * (across + 2);
+  }
+  return std::size_t(most);
+}
+
 }  // namespace
 
 void spread_over_panel(LightRows& rows, const PanelBlur& blur) {
   Spreader spreader(blur);
   std::vector<LightEntry> spread;
+  spread.reserve(most_entries(rows, blur));
   std::vector<std::uint32_t> begin{0};
+  begin.reserve(rows.begin.size());
   for (std::size_t p = 0; p + 1 < rows.begin.size(); ++p) {
     for (std::uint32_t first = rows.begin[p], last = first; first < rows.begin[p + 1]; first = last) {
       const std::uint32_t source = rows.entries[first].source;

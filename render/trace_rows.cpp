@@ -243,7 +243,9 @@ glm::ivec2 region_px_of(const Scene& scene, const PixelSamples& samples) {
   constexpr std::int64_t most_entries = 1 << 18, tile_pixels = tile_edge * tile_edge;
   const InterReflection& r = scene.inter_reflection;
   const std::int64_t per_path = bounces(scene) ? std::int64_t(r.paths) * r.bounces : 0;
-  const std::int64_t tiles = most_entries / (samples.count * (1 + per_path) * tile_pixels);
+  const bool blurs = scene.effects.projector_defocus || scene.effects.diffraction;
+  const std::int64_t per_entry = blurs ? most_cells_across * most_cells_across : 1;
+  const std::int64_t tiles = most_entries / (samples.count * (1 + per_path) * per_entry * tile_pixels);
   return {tile_edge * std::clamp<int>(int(tiles), 1, ImageRows{}.region_px.x / tile_edge), tile_edge};
 }
 

@@ -35,7 +35,8 @@ std::vector<IdleProjector> idle_projectors(const Scene& scene, int projector);
 bool rows_are_direct(const Scene& scene, int camera);
 
 /// Regions for ImageRows whose rows fit in the cache's neighbourhood: as large as it has by default, but of
-/// no more than 2¹⁸ entries, or one 4×4 tile.
+/// no more than 2¹⁸ entries, or one 4×4 tile; an entry that is blurred counts as all
+/// the cells that it may spread to (panel_blur.h).
 glm::ivec2 region_px_of(const Scene& scene, const PixelSamples& samples);
 
 }  // namespace laterna

@@ -53,7 +53,10 @@ struct Place {
     return heading.empty() ? key : std::string(key) + " of " + heading;
   }
   [[noreturn]] void fail(const toml::node& node, const std::string& sentence) const {
-    throw InputError(fmt::format("{}:{}: {}", file, node.source().begin.line, sentence));
+    const toml::source_region& source = node.source();
+    if (source.path && *source.path != file)  // an override, which stands in no line
+      throw InputError(fmt::format("{}: {}", *source.path, sentence));
+    throw InputError(fmt::format("{}:{}: {}", file, source.begin.line, sentence));
   }
 };
 
@@ -208,24 +211,33 @@ std::vector<std::string> split(const std::string& path) {
 /// Walks from a table down a path, through arrays by index or to their first entry.
 class Override {
  public:
-  explicit Override(const std::string& text) : text_(text) {
+  explicit Override(const std::string& text) : name_("--set " + text.substr(0, text.find('='))) {
     const std::size_t equals = text.find('=');
     if (equals == std::string::npos) fail("expected KEY=VALUE");
     keys_ = split(text.substr(0, equals));
     for (const std::string& key : keys_)
       if (key.empty()) fail("expected keys joined by single dots");
-    value_ = parse_toml("value = " + text.substr(equals + 1), "override \"" + text + "\"");
+    value_ = parsed(text.substr(equals + 1));
   }
 
-  void apply(toml::table& root) const {
+  void apply(toml::table& root) {
     toml::table* table = &root;
     for (std::size_t k = 0; k + 1 < keys_.size(); ++k) table = step(*table, k);
-    table->insert_or_assign(keys_.back(), *value_.get("value"));
+    table->insert_or_assign(keys_.back(), std::move(*value_.get("value")));  // a copy forgets its source
   }
 
  private:
   [[noreturn]] void fail(const std::string& what) const {
-    throw InputError(fmt::format("override \"{}\": {}", text_, what));
+    throw InputError(fmt::format("{}: {}", name_, what));
+  }
+  // {"value": what the text says}; its nodes name this override as their source.
+  toml::table parsed(const std::string& value) const {
+    try {
+      return toml::parse("value = " + value, name_);
+    } catch (const toml::parse_error& error) {
+      fail(fmt::format("\"{}\" is no TOML value: {}", value.size() <= 40 ? value : "(a long text)",
+                       error.description()));
+    }
   }
   static bool is_index(const std::string& key) {
     return !key.empty() && key.size() < 7 && key.find_first_not_of("0123456789") == std::string::npos;
@@ -233,7 +245,7 @@ class Override {
   // The table under keys_[k]; an index after it is passed over by leaving k on it.
   toml::table* step(toml::table& table, std::size_t& k) const {
     toml::node* node = table.get(keys_[k]);
-    if (!node) node = &table.insert_or_assign(keys_[k], toml::table{}).first->second;
+    if (!node) node = &table.insert_or_assign(keys_[k], std::move(*parsed("{}").get("value"))).first->second;
     toml::array* array = node->as_array();
     if (!array)
       return node->is_table() ? node->as_table() : (fail(fmt::format("{} is no table", keys_[k])), nullptr);
@@ -245,7 +257,7 @@ class Override {
     return array->get(at)->as_table();
   }
 
-  std::string text_;
+  std::string name_;  // "--set KEY"
   std::vector<std::string> keys_;
   toml::table value_;
 };
@@ -263,7 +275,7 @@ SceneSpec parse_scene(std::string_view text, const std::string& file_name,
   check_toml_bytes(text, file_name);
   toml::table table = parse_toml(text, file_name);
   for (const std::string& text_of_one : overrides) {
-    check_toml_bytes(text_of_one, "override");
+    check_toml_bytes(text_of_one, "--set");
     Override(text_of_one).apply(table);
   }
   SceneSpec spec;

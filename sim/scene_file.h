@@ -24,8 +24,8 @@ SceneSpec parse_scene(std::string_view text, const std::string& file_name);
 /// The same with some keys set to other values after the text is read, in order: "KEY=VALUE" with a TOML
 /// value and a path of keys and indices joined by dots, as "ambient_lx=3", "projector.0.fx=1500.0" or
 /// "camera.sensor.bit_depth=12"; where an index is left out, it is 0. Tables on the way are made where they
-/// are not there, entries of arrays are not. Throws InputError, naming the override, for one that is no such
-/// text or meets no table on its way.
+/// are not there, entries of arrays are not. Throws InputError that begins with `--set KEY: ` for an override
+/// that is no such text, meets no table on its way, or sets what a file could not say.
 SceneSpec parse_scene(std::string_view text, const std::string& file_name,
                       const std::vector<std::string>& overrides);
 SceneSpec read_scene_spec(const std::filesystem::path& path, const std::vector<std::string>& overrides);

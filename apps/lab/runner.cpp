@@ -44,7 +44,7 @@ Json parse_line(const std::string& line, const fs::path& path, std::size_t numbe
                                path.string(), number));
 }
 
-Past read_journal(const fs::path& path, const std::string& fingerprint) {
+Past read_journal(const fs::path& path, const RunnerOptions& options) {
   std::ifstream file(path);
   std::vector<std::string> lines;
   for (std::string line; std::getline(file, line);) lines.push_back(line);
@@ -54,12 +54,10 @@ Past read_journal(const fs::path& path, const std::string& fingerprint) {
     const Json json = parse_line(lines[n], path, n + 1);
     if (n == 0) {
       if (json.value("journal", 0) != 1) throw InputError(path.string() + ": no journal of this command");
-      if (json.value("fingerprint", "") != fingerprint)
+      if (json.value("fingerprint", "") != options.fingerprint)
         throw InputError(
-            fmt::format("{}: begun with another specification, or a file that it names has changed since; "
-                        "expected the same "
-                        "to resume it",
-                        path.string()));
+            fmt::format("{}: begun with other words, expected the same to go on with it", path.string()));
+      expect_unchanged(options.files, json.value("files", Json::object()), path);
     } else if (json.contains("begin")) {
       ++past.begun[json["begin"].get<std::string>()];
     } else if (json.contains("id")) {
@@ -73,12 +71,13 @@ Past read_journal(const fs::path& path, const std::string& fingerprint) {
 /// Appends whole lines. What did not fit on the disk is taken back.
 class Journal {
  public:
-  Journal(fs::path path, bool is_new, const std::string& fingerprint)
+  Journal(fs::path path, bool is_new, const RunnerOptions& options)
       : path_(std::move(path)),
         file_(::open(path_.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC, 0666)) {
     if (file_ < 0)
       throw InputError(fmt::format("{}: cannot be written, expected a folder for results", path_.string()));
-    if (is_new) write({{"journal", 1}, {"fingerprint", fingerprint}});
+    if (is_new)
+      write({{"journal", 1}, {"fingerprint", options.fingerprint}, {"files", json_of(options.files)}});
   }
   ~Journal() { ::close(file_); }
   Journal(const Journal&) = delete;
@@ -157,7 +156,7 @@ Past past_of(const fs::path& journal, const RunnerOptions& options) {
     throw InputError(fmt::format("{}: holds no run, expected one to resume", options.folder.string()));
   if (!there) return {};
   drop_cut_line(journal);
-  return fs::file_size(journal) > 0 ? read_journal(journal, options.fingerprint) : Past{};
+  return fs::file_size(journal) > 0 ? read_journal(journal, options) : Past{};
 }
 
 }  // namespace
@@ -178,6 +177,8 @@ StopSignals::~StopSignals() {
   sigaction(SIGTERM, &before_term, nullptr);
 }
 
+bool StopSignals::asked() { return stop_signals_alive > 0 && stop_asked; }
+
 RunOutcome run_jobs(const std::vector<Job>& jobs, const RunnerOptions& options, const Progress& progress) {
   std::error_code failed;
   fs::create_directories(options.folder, failed);
@@ -186,7 +187,7 @@ RunOutcome run_jobs(const std::vector<Job>& jobs, const RunnerOptions& options, 
         fmt::format("{}: {}, expected a folder for results", options.folder.string(), failed.message()));
   const fs::path path = options.folder / "journal.jsonl";
   const Past past = past_of(path, options);
-  Journal journal(path, !fs::exists(path) || fs::file_size(path) == 0, options.fingerprint);
+  Journal journal(path, !fs::exists(path) || fs::file_size(path) == 0, options);
   RunOutcome run{std::vector<JobOutcome>(jobs.size()), 0, false};
   std::vector<std::size_t> open;
   for (std::size_t k = 0; k < jobs.size(); ++k) {
@@ -228,7 +229,7 @@ RunOutcome run_jobs(const std::vector<Job>& jobs, const RunnerOptions& options, 
     for (std::size_t n = 0; n < open.size(); ++n) one(n);
   if (fault) std::rethrow_exception(fault);
   for (const JobOutcome& job : run.jobs) run.done += job.done;
-  run.interrupted = run.done < jobs.size();
+  run.interrupted = run.done < jobs.size() || StopSignals::asked();
   return run;
 }
 

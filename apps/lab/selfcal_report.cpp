@@ -1,6 +1,7 @@
 #include "apps/lab/selfcal_report.h"
 
 #include "apps/lab/trial_report.h"
+#include "calib/correspondences.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -13,6 +14,8 @@ namespace laterna {
 using Json = nlohmann::json;
 
 namespace {
+
+constexpr std::size_t most_points = 2000;
 
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
@@ -42,6 +45,19 @@ Json station_json(const SelfCalibration& c, std::size_t s) {
           {"sightings", r.sightings},
           {"fit_rms_px", number(r.rms_px)},
           {"predicted_px", number(r.predicted_px)}};
+}
+
+// To look at: those that were placed, thinned.
+Json points_json(const SelfCalibration& c) {
+  std::vector<int> placed;
+  for (int p = 0; p < int(c.rig.points.size()); ++p)
+    if (c.rig.has_point(p)) placed.push_back(p);
+  Json points = Json::array();
+  for (const std::size_t k : evenly_spread(placed.size(), most_points)) {
+    const glm::dvec3& x = c.rig.points[std::size_t(placed[k])];
+    points.push_back({number(x.x), number(x.y), number(x.z)});
+  }
+  return points;
 }
 
 std::string unit_text(const SelfCalibration& c) {
@@ -87,6 +103,7 @@ Json selfcal_json(const SelfCalibration& c) {
   json["focal_sigma"] = number(c.focal_sigma);
   for (std::size_t d = 0; d < c.rig.devices.size(); ++d) json["devices"].push_back(device_json(c, d));
   for (std::size_t s = 0; s < c.stations.size(); ++s) json["stations"].push_back(station_json(c, s));
+  json["points"] = points_json(c);
   json["parameters"] = c.parameter_names;
   json["covariance"] = c.covariance;
   json["iterations"] = c.iterations;

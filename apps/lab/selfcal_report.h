@@ -12,7 +12,8 @@ namespace laterna {
 /// {"status", "reason", "count": {"given", "needed", "intrinsics", "places"}, "unit": "metre" or "baseline",
 /// "unit_baselines": [[station, station]], "fit_rms_px", "residual_scale", "devices": [{"name", "size", "fx",
 /// "fy", "cx", "cy", "lens", "sigma"}], "stations": [{"device", "station", "device_from_first": 3×4,
-/// "sightings", "fit_rms_px", "predicted_px"}], "parameters", "covariance" (row-major, in their order),
+/// "sightings", "fit_rms_px", "predicted_px"}], "points": [[x, y, z]] in the first station's frame, at
+/// most 2,000 of them, evenly spread, "parameters", "covariance" (row-major, in their order),
 /// "focal_sigma", "weakest": {"direction", "sigma", "gap"}, "merged", "dropped", "iterations",
 /// "termination"}. Keys and shapes that board_json() has too mean the same. Where refused, devices and
 /// stations are empty; a number that is not finite is null.

@@ -15,10 +15,11 @@ struct Words {
 };
 
 int run(Words& words, const Common& common) {
+  const StopSignals signals;  // until the results are written
   words.options.seed = common.seed;
   const Atlas atlas = run_atlas(words.spec, words.out, words.options,
                                 [&](const std::string& line) { progress(common, line); });
-  if (atlas.interrupted) {
+  if (atlas.interrupted || StopSignals::asked()) {
     fmt::print(stderr,
                "laterna: interrupted with {} of {} cells done; the same command with --resume goes on\n",
                atlas.done, atlas.all);

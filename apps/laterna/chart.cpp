@@ -17,10 +17,11 @@ struct Words {
 };
 
 int run(Words& words, const Common& common) {
+  const StopSignals signals;  // until the results are written
   words.options.seed = common.seed;
   const Chart chart = run_chart(words.sweep, words.out, words.options,
                                 [&](const std::string& line) { progress(common, line); });
-  if (chart.interrupted) {
+  if (chart.interrupted || StopSignals::asked()) {
     fmt::print(stderr,
                "laterna: interrupted with {} of {} points done; the same command with --resume goes on\n",
                chart.done, chart.all);

@@ -1,6 +1,7 @@
 #include "apps/lab/plan/plan.h"
 
 #include "apps/lab/plan/plan_report.h"
+#include "apps/lab/runner.h"
 #include "apps/laterna/command.h"
 #include "apps/laterna/scene_words.h"
 #include "sim/error.h"
@@ -58,14 +59,16 @@ int run(const Words& words, const Common& common) {
       words.out.empty() ? default_out(words.scene.file, words.options.resume) : fs::path(words.out);
   const fs::path work = words.work.empty() ? work_folder_of(out) : fs::path(words.work);
   check_output(out.string());
+  const StopSignals signals;  // until the scene is written
   PlanOptions options = words.options;
   options.seed = common.seed, options.set = words.scene.set;
   const Plan plan = planned(words, options, work, common);
-  if (plan.interrupted) {
+  const std::string scene = plan.interrupted ? "" : planned_scene_toml(plan, words.scene.file, out);
+  if (plan.interrupted || StopSignals::asked()) {
     fmt::print(stderr, "laterna: interrupted; the same command with --resume goes on\n");
     return exit_interrupted;
   }
-  write_file(out, planned_scene_toml(plan, words.scene.file, out));
+  write_file(out, scene);
   if (words.work.empty()) {
     fs::remove_all(work);
   } else {

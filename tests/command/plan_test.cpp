@@ -1,8 +1,13 @@
 #include "tests/command/run_command.h"
 #include "tests/testing.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
+
+#include <sys/wait.h>
+
+#include <cstdlib>
 
 namespace laterna::testing {
 namespace {
@@ -55,6 +60,45 @@ TEST(Command, PlanKeepsItsContractAndItsSceneRuns) {
   EXPECT_EQ(read_text(scratch / "dome-planned-2.toml"), read_text(scratch / "dome-planned.toml"));
 }
 
+// Runs `laterna WORDS` in a folder and presses ctrl-C once the journal holds `results` ends of trials; the
+// exit code.
+int interrupted_after(int results, const std::string& words, const std::string& journal,
+                      const std::filesystem::path& folder) {
+  const std::string script = fmt::format(
+      "cd '{}' || exit 9; '{}' {} >/dev/null 2>err & pid=$!\n"
+      "until [ \"$(grep -c result {})\" -ge {} ] || ! kill -0 $pid; do sleep 0.01; done 2>/dev/null\n"
+      "kill -INT $pid; wait $pid",
+      folder.string(), laterna_path(), words, journal, results);
+  return WEXITSTATUS(std::system(script.c_str()));
+}
+
+// All of plan.json that does not depend on the clock or on where it stands.
+json without_seconds(const std::filesystem::path& plan_json) {
+  json plan = json::parse(read_text(plan_json));
+  for (const char* key : {"seconds_full", "seconds_plan", "scene"}) plan.erase(key);
+  for (json& choice : plan.at("choices"))
+    for (json& tried : choice.at("tried")) tried.erase("seconds_saved");
+  return plan;
+}
+
+TEST(Command, APlanInterruptedInItsMiddleIsGoneOnWith) {
+  const ScratchFolder scratch;
+  write_text(scratch / "dome.toml", scene);
+  const std::string words = "plan dome.toml --tolerance-px 0.05 --seeds 2 ";
+  ASSERT_EQ(laterna(words + "-o whole.toml --work whole", scratch.path()).exit_code, 0);
+  const std::string cut = words + "-o cut.toml --work cut";
+  EXPECT_EQ(interrupted_after(5, cut, "cut/journal.jsonl", scratch.path()), 5);
+  EXPECT_THAT(read_text(scratch / "err"), HasSubstr("the same command with --resume goes on"));
+  EXPECT_EQ(listing(scratch / "cut"), "journal.jsonl ");
+  EXPECT_FALSE(std::filesystem::exists(scratch / "cut.toml"));
+  EXPECT_EQ(laterna(cut, scratch.path()).exit_code, 2);  // not without --resume
+  const auto end = laterna(cut + " --resume", scratch.path());
+  ASSERT_EQ(end.exit_code, 0) << end.err;
+  EXPECT_EQ(read_text(scratch / "cut.toml"), read_text(scratch / "whole.toml"));
+  EXPECT_EQ(without_seconds(scratch / "cut/plan.json"), without_seconds(scratch / "whole/plan.json"));
+  EXPECT_EQ(read_text(scratch / "cut/reference.json"), read_text(scratch / "whole/reference.json"));
+}
+
 TEST(Command, PlanSaysWhatIsWrong) {
   const ScratchFolder scratch;
   write_text(scratch / "dome.toml", scene);
@@ -104,6 +148,7 @@ TEST(Command, SetChangesKeysOfTheScene) {
   EXPECT_EQ(laterna("check dome.toml --set effects.shadow=false", scratch.path()).exit_code, 0);
   const auto wrong = laterna("check dome.toml --set effects.shadows=false", scratch.path());
   EXPECT_EQ(wrong.exit_code, 2);
+  EXPECT_THAT(wrong.err, HasSubstr("--set effects.shadows: unknown key"));
   EXPECT_THAT(wrong.err, HasSubstr("did you mean \"shadow\""));
   EXPECT_EQ(laterna("check dome.toml --set effects", scratch.path()).exit_code, 2);
 }

@@ -141,6 +141,26 @@ TEST(Runner, AStopBetweenRunsHoldsForTheNext) {
   EXPECT_EQ(worked, 3);
 }
 
+// The last job has ended, the result is not written yet: the person who pressed ctrl-C is heard.
+TEST(Runner, AStopInTheLastJobIsHeard) {
+  const ScratchFolder folder;
+  std::atomic<int> worked{0};
+  std::vector<Job> jobs = squares(3, worked);
+  const auto square = jobs[2].work;
+  jobs[2].work = [&, square] {
+    std::raise(SIGINT);
+    return square();
+  };
+  RunnerOptions options{.folder = folder / "a", .fingerprint = "f", .parallel = false};
+  const RunOutcome first = run_jobs(jobs, options);
+  EXPECT_TRUE(first.interrupted);
+  EXPECT_EQ(first.done, 3u);
+  EXPECT_FALSE(StopSignals::asked());  // none lives any more
+  options.resume = true;
+  EXPECT_FALSE(run_jobs(jobs, options).interrupted);  // nothing is left to work out
+  EXPECT_EQ(worked, 3);
+}
+
 TEST(Runner, BadInput) {
   const ScratchFolder folder;
   std::atomic<int> worked{0};
@@ -152,7 +172,7 @@ TEST(Runner, BadInput) {
   EXPECT_THAT(input_error([&] { run_jobs(squares(2, worked), options); }), HasSubstr("--resume"));
   resumed.fingerprint = "g";
   EXPECT_THAT(input_error([&] { run_jobs(squares(2, worked), resumed); }),
-              HasSubstr("another specification"));
+              HasSubstr("begun with other words"));
   std::filesystem::create_directories(folder / "b");
   testing::write_text(folder / "b" / "journal.jsonl", "not a journal\nat all\n");
   resumed.folder = folder / "b";

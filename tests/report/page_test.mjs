@@ -71,8 +71,8 @@ async function figuresDraw(page, least) {
   }
 }
 
-async function rigDraws(page) {
-  const colours = await page.$eval("canvas.rig", (canvas) => {
+async function rigDraws(page, selector) {
+  const colours = await page.$eval(selector, (canvas) => {
     const copy = Object.assign(document.createElement("canvas"), { width: 200, height: 112 }),
       context = copy.getContext("2d");
     context.drawImage(canvas, 0, 0, 200, 112);
@@ -205,7 +205,7 @@ async function wholePage(page, data) {
   assert.deepEqual(ids, ["summary", "pictures", "rig", "residuals", "projection", "live", "board-rig", "board", "chart", "atlas"]);
   await numbersEqual(page, data);
   await figuresDraw(page, 11);
-  await rigDraws(page);
+  await rigDraws(page, "#rig canvas.rig");
   await readable(page);
   await sliderMoves(page);
   await rigTurns(page);
@@ -224,7 +224,9 @@ async function storedPage(page, data) {
   assert.deepEqual(ids, ["summary", "selfcal", "plan", "plan-2", "chart", "chart-2", "atlas-reference-1"]);
   await numbersEqual(page, data);
   await figuresDraw(page, 7);
+  await rigDraws(page, "#selfcal canvas.rig");
   await readable(page);
+  await rigTurns(page);
   if (screenshots) await keep(page, "stored_light.png");
   await darkIsDark(page);
   if (screenshots) await keep(page, "stored_dark.png");

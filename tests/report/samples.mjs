@@ -123,6 +123,9 @@ export function gatherStored(laterna, source, scratch) {
   assert.deepEqual(data.plans, ["near_focus", "v_groove"].map(json));
   assert.deepEqual(data.charts, ["points", "second_sample"].map(json));
   assert.deepEqual(data.selfcals, [json("pair")]);
+  assert.equal(data.selfcals[0].points.length, 60); // as many as the table has
+  const rig = readFileSync(join(scratch, "stored_figures", "selfcal_rig_pair.svg"), "utf8");
+  assert.ok(rig.includes("projector one") && !/nan|inf[^o]/.test(rig));
   const { letters, ...summary } = json("standard");
   assert.deepEqual(data.atlas_references[0].summary, summary);
   assert.deepEqual(Object.fromEntries(data.atlas_references[0].cells.map((cell) => [cell.cell, cell.letters])), letters);

@@ -167,22 +167,22 @@ std::vector<Planned> sampled(std::vector<Planned> planned, const AtlasOptions& o
   return planned;
 }
 
-std::string digest_of_files(const std::vector<Planned>& planned, const std::string& place,
-                            const std::filesystem::path& folder) {
-  std::vector<std::filesystem::path> files;
+std::vector<FileDigest> digests_of(const std::vector<Planned>& planned,
+                                   const std::filesystem::path& specification) {
+  const std::filesystem::path folder = specification.parent_path();
+  std::vector<std::filesystem::path> files{specification};
   for (const Planned& p : planned) {
-    const CellKind& kind = cell_kind(p.cell.kind, place);
+    const CellKind& kind = cell_kind(p.cell.kind, specification.string());
     if (!kind.files) continue;
-    const auto read = kind.files(p.cell.values, place, folder);
+    const auto read = kind.files(p.cell.values, specification.string(), folder);
     files.insert(files.end(), read.begin(), read.end());
   }
-  return files_digest(std::move(files));
+  return file_digests(files, folder);
 }
 
-std::string fingerprint(const std::string& text, const std::string& digest, const AtlasOptions& options) {
-  return fmt::format("atlas {:016x} files {} seed {} long {} methods {} cell {} sample {}", hash_of(text),
-                     digest, options.seed, options.long_run, fmt::join(options.methods, ","), options.cell,
-                     options.sample);
+std::string fingerprint(const AtlasOptions& options) {
+  return fmt::format("atlas, seed {} long {} methods {} cell {} sample {}", options.seed, options.long_run,
+                     fmt::join(options.methods, ","), options.cell, options.sample);
 }
 
 }  // namespace
@@ -195,14 +195,14 @@ Atlas run_atlas(const std::filesystem::path& specification, const std::filesyste
     plan_grid(grid, specification.parent_path(), options, planned);
   planned = sampled(std::move(planned), options);
   if (planned.empty()) throw InputError(specification.string() + ": no cell matches what is asked for");
-  const std::string digest = digest_of_files(planned, specification.string(), specification.parent_path());
   std::vector<Job> jobs;
   for (const Planned& p : planned)
     jobs.push_back({p.cell.method + ": " + p.cell.name,
                     [&p, &options, &folder] { return run_cell(p, options.seed, folder); }});
   const RunOutcome run = run_jobs(jobs,
                                   {.folder = folder,
-                                   .fingerprint = fingerprint(text, digest, options),
+                                   .fingerprint = fingerprint(options),
+                                   .files = digests_of(planned, specification),
                                    .resume = options.resume,
                                    .noun = "cells"},
                                   progress);

@@ -143,7 +143,7 @@ CellKind picture_cells() {
             const PictureCondition condition = condition_of(values, place);
             const std::filesystem::path file = folder / condition.scene;
             auto files = files_of(read_scene_spec(file, condition.set), file.parent_path());
-            files.push_back(file);
+            files.insert(files.begin(), file);
             return files;
           }};
 }

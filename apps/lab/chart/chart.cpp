@@ -244,8 +244,10 @@ std::vector<std::size_t> pareto_front(const std::vector<ChartPoint>& points) {
 
 namespace {
 
-std::string digest_of_files(const std::vector<Grid>& grids, const std::filesystem::path& folder) {
-  std::vector<std::filesystem::path> files;
+std::vector<FileDigest> digests_of(const std::vector<Grid>& grids,
+                                   const std::filesystem::path& specification) {
+  const std::filesystem::path folder = specification.parent_path();
+  std::vector<std::filesystem::path> files{specification};
   for (const Grid& grid : grids) {
     const CellKind& kind = cell_kind(grid.kind, grid.place);
     if (!kind.files) continue;
@@ -254,7 +256,7 @@ std::string digest_of_files(const std::vector<Grid>& grids, const std::filesyste
       files.insert(files.end(), read.begin(), read.end());
     }
   }
-  return files_digest(std::move(files));
+  return file_digests(files, folder);
 }
 
 }  // namespace
@@ -271,20 +273,21 @@ Chart run_chart(const std::filesystem::path& specification, const std::filesyste
       plan_cell(grid, cell, kind.prepare(cell.values, grid.place, specification.parent_path()), options,
                 planned);
   }
-  const std::string digest = digest_of_files(grids, specification.parent_path());
+  const std::vector<FileDigest> files = digests_of(grids, specification);
   planned = chosen(std::move(planned), options, specification.string());
   std::vector<Job> jobs;
   for (const Planned& p : planned)
     jobs.push_back({p.point.label, [&p, &options] { return run_point(p, options.seed); }});
-  const RunOutcome run = run_jobs(
-      jobs,
-      {.folder = folder,
-       .fingerprint = fmt::format("chart {:016x} files {} seed {} repeats {} points {}", hash_of(text),
-                                  digest, options.seed, options.repeats, fmt::join(options.points, "|")),
-       .resume = options.resume,
-       .parallel = false,
-       .noun = "points"},
-      progress);
+  const RunOutcome run =
+      run_jobs(jobs,
+               {.folder = folder,
+                .fingerprint = fmt::format("chart, seed {} repeats {} points {}", options.seed,
+                                           options.repeats, fmt::join(options.points, "|")),
+                .files = files,
+                .resume = options.resume,
+                .parallel = false,
+                .noun = "points"},
+               progress);
   chart.interrupted = run.interrupted, chart.done = run.done, chart.all = jobs.size();
   for (std::size_t k = 0; k < planned.size(); ++k) {
     if (!run.jobs[k].done) continue;

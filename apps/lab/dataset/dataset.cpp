@@ -2,6 +2,7 @@
 
 #include "apps/lab/dataset/block.h"
 #include "apps/lab/dataset/drawn_scene.h"
+#include "apps/lab/dataset/named_files.h"
 #include "apps/lab/dataset/sample.h"
 #include "apps/lab/dataset/sha256.h"
 #include "apps/lab/files_digest.h"
@@ -9,7 +10,6 @@
 #include "sim/error.h"
 #include "sim/instruction_sets.h"
 #include "sim/safe_write.h"
-#include "sim/self_contained.h"
 #include "sim/text_file.h"
 
 #include <fmt/format.h>
@@ -28,54 +28,49 @@ using Json = nlohmann::json;
 
 constexpr std::size_t most_bytes = std::size_t(1) << 26;
 
-/// What all shards of a set share.
-std::string identity(const DatasetSpec& spec, const DatasetOptions& options) {
-  const Json json{{"format", "laterna-dataset"},
-                  {"version", 1},
-                  {"name", spec.settings.name},
-                  {"licence", spec.settings.licence},
-                  {"count", options.count},
-                  {"seed", options.seed},
-                  {"tar_samples", spec.settings.tar_samples},
-                  {"instruction_set", instruction_set()},
-                  {"spec_sha256", sha256_hex(spec.text)},
-                  {"scene_sha256", sha256_hex(spec.scene_text)}};
-  return json.dump(1) + "\n";
-}
+/// What all shards of a set share; and the files that decide its samples.
+struct Identity {
+  Json json;
+  std::vector<FileDigest> files;
+};
 
-// Of the files that the first samples' scenes name: 64 draws meet every choice that is not rare.
-std::string digest_of_files(const DatasetSpec& spec, const DatasetOptions& options) {
-  std::vector<fs::path> files;
-  for (std::uint64_t sample = 0; sample < std::min<std::uint64_t>(std::uint64_t(options.count), 64);
-       ++sample) {
-    const auto named =
-        files_of(scene_of(spec, draw_values(spec, options.seed, sample, 0)), spec.scene_file.parent_path());
-    files.insert(files.end(), named.begin(), named.end());
-  }
-  return files_digest(std::move(files));
+Identity identity_of(const fs::path& specification, const DatasetSpec& spec, const DatasetOptions& options) {
+  std::vector<fs::path> named = named_files(spec);
+  named.insert(named.begin(), {specification, spec.scene_file});
+  std::vector<FileDigest> files = file_digests(named, specification.parent_path());
+  Json json{{"format", "laterna-dataset"},
+            {"version", 2},
+            {"name", spec.settings.name},
+            {"licence", spec.settings.licence},
+            {"count", options.count},
+            {"seed", options.seed},
+            {"tar_samples", spec.settings.tar_samples},
+            {"instruction_set", instruction_set()},
+            {"files", json_of(files)}};
+  return {std::move(json), std::move(files)};
 }
 
 // The first difference, in words.
 std::string difference(const Json& there, const Json& here) {
   for (const auto& [key, value] : here.items())
-    if (!there.contains(key) || there[key] != value)
+    if (key != "files" && (!there.contains(key) || there[key] != value))
       return fmt::format("{} {} there, {} here", key, there.value(key, Json()).dump(), value.dump());
-  return "another form";
+  return "";
 }
 
 // Throws where the folder holds another set.
-void expect_same_set(const fs::path& path, const std::string& here) {
-  const std::string there = read_text(path, most_bytes);
-  if (there == here) return;
-  const Json json = Json::parse(there, nullptr, false);
-  throw InputError(fmt::format("{}: another data set ({}), expected the same words or a new folder",
-                               path.string(),
-                               json.is_object() ? difference(json, Json::parse(here)) : "no JSON"));
+void expect_same_set(const fs::path& path, const Identity& here) {
+  const Json there = Json::parse(read_text(path, most_bytes), nullptr, false);
+  const std::string other = there.is_object() ? difference(there, here.json) : "no JSON";
+  if (!other.empty())
+    throw InputError(fmt::format("{}: another data set ({}), expected the same words or a new folder",
+                                 path.string(), other));
+  expect_unchanged(here.files, there.value("files", Json::object()), path);
 }
 
-void begin(const DatasetFolder& folder, const DatasetSpec& spec, const DatasetOptions& options) {
+void begin(const DatasetFolder& folder, const DatasetSpec& spec, const DatasetOptions& options,
+           const Identity& here) {
   const fs::path path = folder.root / "dataset.json";
-  const std::string here = identity(spec, options);
   if (fs::exists(path)) return expect_same_set(path, here);
   std::error_code ignored;
   if (options.merge) throw InputError(folder.root.string() + ": holds no data set, expected one to merge");
@@ -85,7 +80,7 @@ void begin(const DatasetFolder& folder, const DatasetSpec& spec, const DatasetOp
   for (const char* part : {"runs", "tars", "samples"}) make_folders(folder.root / part);
   write_file(folder.root / "spec.toml", spec.text);
   write_file(folder.root / "scene.toml", spec.scene_text);
-  write_file(path, here);
+  write_file(path, here.json.dump(1) + "\n");
 }
 
 // What killed processes left under temporary names.
@@ -151,19 +146,18 @@ std::vector<Job> jobs_of(const DatasetFolder& folder, const DatasetSpec& spec, c
 }
 
 void run_shard(const DatasetFolder& folder, const DatasetSpec& spec, const DatasetOptions& options,
-               const Progress& progress, DatasetOutcome& outcome) {
+               const Identity& identity, const Progress& progress, DatasetOutcome& outcome) {
   const fs::path run_folder = folder.run(options.shard, options.shards);
   make_folders(run_folder);
   const FileLock lock(run_folder / ".lock", FileLock::Wait::no);
   std::atomic<std::uint64_t> made = 0;
   const CostClock clock;
-  const RunnerOptions runner{
-      .folder = run_folder,
-      .fingerprint = sha256_hex(identity(spec, options) + digest_of_files(spec, options)),
-      .resume = options.resume && fs::exists(run_folder / "journal.jsonl"),
-      .noun = "samples",
-      .stop_at_error = true,
-      .most_deaths = std::numeric_limits<int>::max()};
+  const RunnerOptions runner{.folder = run_folder,
+                             .fingerprint = sha256_hex(identity.json.dump()),
+                             .resume = options.resume && fs::exists(run_folder / "journal.jsonl"),
+                             .noun = "samples",
+                             .stop_at_error = true,
+                             .most_deaths = std::numeric_limits<int>::max()};
   try {
     outcome.interrupted = run_jobs(jobs_of(folder, spec, options, made), runner, progress).interrupted;
   } catch (const InputError& error) {
@@ -189,9 +183,10 @@ DatasetOutcome make_dataset(const fs::path& specification, const fs::path& root,
   const DatasetSpec spec = read_dataset_spec(specification);
   const DatasetFolder folder{root, spec.settings.name, options.count,
                              std::uint64_t(spec.settings.tar_samples)};
-  begin(folder, spec, options);
+  const Identity identity = identity_of(specification, spec, options);
+  begin(folder, spec, options, identity);
   DatasetOutcome outcome;
-  if (!options.merge) run_shard(folder, spec, options, progress, outcome);
+  if (!options.merge) run_shard(folder, spec, options, identity, progress, outcome);
   if (outcome.interrupted) return outcome;
   if (packed_blocks(folder, spec.settings.folders) == folder.blocks())
     complete(folder, spec, options, outcome);

@@ -1,5 +1,6 @@
 #include "apps/lab/plan/choices.h"
 
+#include "apps/lab/plan/fixed_exposure.h"
 #include "sim/error.h"
 #include "sim/scene_build.h"
 #include "sim/scene_fields.h"
@@ -45,6 +46,11 @@ bool spreads_samples(const SceneSpec& spec) {
   return spec.effects.antialiasing || spec.effects.camera_defocus || spec.effects.diffraction;
 }
 bool reflects(const SceneSpec& spec) { return spec.effects.inter_reflection; }
+// Whether a camera pixel gathers from more than one place of a projector's picture.
+bool has_long_rows(const SceneSpec& spec) {
+  return spreads_samples(spec) || reflects(spec) || spec.effects.projector_defocus ||
+         spec.effects.fill_factor;
+}
 
 // A number that is divided by `divisor` and rounded up, again and again, down to `least`.
 Choice number_choice(const char* name, int full, int divisor, int least,
@@ -133,6 +139,12 @@ Choice patterns_choice(const Scene& scene) {
   return choice;
 }
 
+Choice exposure_choice(const Scene& scene, const std::filesystem::path& folder) {
+  Choice choice{"exposure", false, "automatic", {}, true, has_long_rows};
+  if (exposure_takes_rays(scene)) choice.levels.push_back({"fixed", fixed_exposure(folder)});
+  return choice;
+}
+
 struct LensModel {
   const char* name;
   std::size_t parameters;
@@ -190,16 +202,19 @@ std::vector<Choice> choices_of(const SceneSpec& spec, const Scene& scene,
       resolution_choice(spec, scene, folder),
       patterns_choice(scene),
       lens_choice("projector_lens_terms", spec, &SceneSpec::projectors, &Effects::projector_lens),
-      lens_choice("camera_lens_terms", spec, &SceneSpec::cameras, &Effects::camera_lens)};
+      lens_choice("camera_lens_terms", spec, &SceneSpec::cameras, &Effects::camera_lens),
+      exposure_choice(scene, folder)};
   for (Choice& choice : settings)
     if (!choice.levels.empty() && choice.is_needed(spec)) choices.push_back(std::move(choice));
   return choices;
 }
 
 SceneSpec at_levels(SceneSpec spec, const std::vector<Choice>& choices, const Levels& levels) {
-  for (std::size_t k = 0; k < choices.size(); ++k)
-    if (levels[k] > 0) choices[k].levels[std::size_t(levels[k]) - 1].edit(spec);
-  if (spec.effects.fill_factor && !is_sound(spec)) spec.effects.fill_factor = false;
+  for (std::size_t k = 0; k < choices.size(); ++k) {
+    if (levels[k] == 0) continue;
+    choices[k].levels[std::size_t(levels[k]) - 1].edit(spec);
+    if (spec.effects.fill_factor && !is_sound(spec)) spec.effects.fill_factor = false;
+  }
   return spec;
 }
 

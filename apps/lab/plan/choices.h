@@ -17,7 +17,8 @@ struct Level {
   std::function<void(SceneSpec&)> edit;
 };
 
-/// Something that can be cheaper. Its levels go from the scene's own value downwards.
+/// Something that can be cheaper; its edits come after those of the choices before it. Its levels go from the
+/// scene's own value downwards.
 struct Choice {
   std::string name;  ///< of an effect: its switch (sim/effects.h); else of the setting
   bool is_effect = false;
@@ -43,6 +44,9 @@ using Levels = std::vector<int>;
 ///                                            pictures
 ///   projector_lens_terms, camera_lens_terms → LENSMODEL_OPENCV12 → 8 → 5 → 4, the highest orders cut off
 ///                                            (none at all is projector_lens, camera_lens off)
+///   exposure                               → fixed, at what the scene as it then stands is exposed to
+///                                            automatically (fixed_exposure.h): only where that takes rays
+///                                            of its own
 std::vector<Choice> choices_of(const SceneSpec& spec, const Scene& scene,
                                const std::filesystem::path& folder);
 

@@ -228,11 +228,13 @@ Plan make_plan(const std::filesystem::path& scene_file, const std::filesystem::p
   const Scene scene = checked_scene(spec, scene_file);
   const std::filesystem::path scene_folder = scene_file.parent_path();
   const std::vector<Choice> choices = choices_of(spec, scene, scene_folder);
+  std::vector<std::filesystem::path> files = files_of(spec, scene_folder);
+  files.insert(files.begin(), scene_file);
   const RunnerOptions runner{
       .folder = folder,
-      .fingerprint = fmt::format("plan {:016x} files {} set {} seed {} seeds {} tolerance {}", hash_of(text),
-                                 files_digest(files_of(spec, scene_folder)), fmt::join(options.set, "|"),
+      .fingerprint = fmt::format("plan, set {} seed {} seeds {} tolerance {}", fmt::join(options.set, "|"),
                                  options.seed, options.seeds, options.tolerance_px),
+      .files = file_digests(files, scene_folder),
       .resume = options.resume,
       .parallel = false};
   PlanTrials trials(spec, scene_folder, choices, runner, options, progress);
@@ -246,6 +248,7 @@ Plan make_plan(const std::filesystem::path& scene_file, const std::filesystem::p
     jointly(search);
     confirm(search, options);
     report_choices(search, spec);
+    plan.interrupted = StopSignals::asked();
   } catch (const PlanInterrupted&) {
     plan.interrupted = true;
   }

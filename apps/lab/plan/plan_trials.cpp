@@ -71,6 +71,7 @@ void PlanTrials::run(const std::vector<Job>& jobs, const std::string& what) {
   std::set<std::string> ids;
   for (const Job& job : jobs)
     if (!results_.contains(job.id) && ids.insert(job.id).second) open.push_back(job);
+  if (StopSignals::asked()) throw PlanInterrupted{};
   if (open.empty()) return;
   runner_.noun = "round trips, " + what;
   const RunOutcome run = run_jobs(open, runner_, progress_);

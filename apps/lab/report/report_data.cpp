@@ -90,9 +90,10 @@ void add_plan(Json json, const fs::path& file, Json& data) {
 
 void add_selfcal(Json json, const fs::path& file, Json& data) {
   for (const Json& device : json.at("devices"))
-    expect_keys(device, file, {"name", "fx", "fy", "cx", "cy", "sigma"});
+    expect_keys(device, file, {"name", "size", "fx", "fy", "cx", "cy", "sigma"});
   for (const Json& station : json.at("stations"))
-    expect_keys(station, file, {"device", "station", "sightings", "fit_rms_px", "predicted_px"});
+    expect_keys(station, file,
+                {"device", "station", "device_from_first", "sightings", "fit_rms_px", "predicted_px"});
   data["selfcals"].push_back(std::move(json));
   data["selfcal_names"].push_back(file.stem().string());
 }

@@ -126,7 +126,7 @@ void add_several(const Json& data, std::vector<StaticFigure>& figures) {
   const Json selfcals = data.value("selfcals", none), plans = data.value("plans", none),
              charts = data.value("charts", none);
   for (std::size_t k = 0; k < selfcals.size(); ++k)
-    add_selfcal_figure(selfcals[k], text(data["selfcal_names"][k]), figures);
+    add_selfcal_figures(selfcals[k], text(data["selfcal_names"][k]), figures);
   for (std::size_t k = 0; k < plans.size(); ++k)
     add_plan_figure(plans[k], text(data["plan_names"][k]), figures);
   for (const Json& chart : charts)

@@ -147,7 +147,7 @@ std::string rig_svg(const Json& rig, const Json& points) {
   sheet.draw(svg, lit, {orange, lit.size() < 100 ? 7.0 : 2.0});
   for (const char* kind : {"projectors", "cameras"})
     for (const Json& device : rig[kind]) {
-      sheet.draw(svg, frustum(device, aim), {kind[0] == 'p' ? vermilion : blue, 1.8});
+      sheet.draw(svg, frustum(device, aim), {device.value("colour", kind[0] == 'p' ? vermilion : blue), 1.8});
       const glm::dvec2 at = sheet.place(placed(device).centre_world);
       svg.text(at.x, at.y - 8, device["name"].get<std::string>(), 13, Svg::Anchor::middle);
     }

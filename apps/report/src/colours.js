@@ -11,6 +11,9 @@ export const blue = "#0072B2",
 
 export const seriesColours = [blue, vermilion, green, purple, orange, sky];
 
+/** Of devices beside orange points. */
+export const deviceColours = [blue, vermilion, green, purple, sky];
+
 export const outcomes = ["right", "weak", "refused", "silent", "crashed"];
 export const outcomeColours = { right: "#009E73", weak: "#E69F00", refused: "#56B4E9", silent: "#D55E00", crashed: "#7a3b8f" };
 export const outcomeLetters = { right: "r", weak: "w", refused: "f", silent: "S", crashed: "X" };

@@ -1,6 +1,6 @@
 // The rig: a 3D view, and its devices as a table.
 import { h, format, number, section, table } from "./dom.js";
-import { blue, vermilion, orange } from "./colours.js";
+import { blue, vermilion, orange, deviceColours } from "./colours.js";
 import { centre, view3d } from "./rig3d.js";
 
 function drawing(figures, devices) {
@@ -11,23 +11,14 @@ function drawing(figures, devices) {
   }
 }
 
-// A rig of devices, with the path in the data of each kind; `of` says what the orange points are.
-function rigSection(id, title, data, figures, paths, of, unit) {
-  const devices = Object.keys(paths).flatMap((kind) =>
-    figures.rig[kind].map((device, k) => ({ kind: kind.slice(0, -1), device, path: [...paths[kind], k] })),
-  );
+// A rig to turn, and its devices as a table: {kind, device, path in the data}; `key` lists [colour, words].
+function rigFigure(data, figures, devices, key, unit) {
   const value =
     (...keys) =>
     (row) =>
       number(data, [...row.path, ...keys]);
-  const key = [
-    [vermilion, "projector"],
-    [blue, "camera"],
-    [orange, of],
-  ].map(([colour, words]) => h("li", {}, h("span", { style: `background:${colour}` }), words));
-  return section(
-    id,
-    title,
+  const swatch = ([colour, words]) => h("li", {}, h("span", { style: `background:${colour}` }), words);
+  return [
     h(
       "figure",
       {},
@@ -39,7 +30,7 @@ function rigSection(id, title, data, figures, paths, of, unit) {
           devices.map((d) => d.device),
         ),
       ),
-      h("ul", { class: "key" }, key),
+      h("ul", { class: "key" }, key.map(swatch)),
       h(
         "figcaption",
         {},
@@ -66,7 +57,20 @@ function rigSection(id, title, data, figures, paths, of, unit) {
       ],
       devices,
     ),
+  ];
+}
+
+// Of projectors and cameras, with the path in the data of each kind; `of` says what the orange points are.
+function rigSection(id, title, data, figures, paths, of, unit) {
+  const devices = Object.keys(paths).flatMap((kind) =>
+    figures.rig[kind].map((device, k) => ({ kind: kind.slice(0, -1), device, path: [...paths[kind], k] })),
   );
+  const key = [
+    [vermilion, "projector"],
+    [blue, "camera"],
+    [orange, of],
+  ];
+  return section(id, title, rigFigure(data, figures, devices, key, unit));
 }
 
 export function rig(data) {
@@ -104,4 +108,19 @@ export function boardRig(data) {
     "distances of the boards",
     "the board's unit, in the camera's frame",
   );
+}
+
+/** Of the k-th self-calibration: every station of every device, and the points; nothing where it has no points. */
+export function selfcalRig(data, k) {
+  const { devices, stations, points, unit } = data.selfcals[k];
+  if (!points?.length) return null;
+  const colour = (d) => deviceColours[d % deviceColours.length];
+  const placed = stations.map((s) => {
+    const d = devices.findIndex((device) => device.name === s.device);
+    const device = { ...devices[d], name: s.station, device_from_world: s.device_from_first, colour: colour(d) };
+    return { kind: s.device, device, path: ["selfcals", k, "devices", d] };
+  });
+  const figures = { rig: { projectors: [], cameras: placed.map((p) => p.device), meshes: [] }, points: points.flat() };
+  const key = [...devices.map((d, i) => [colour(i), d.name]), [orange, "points that are seen"]];
+  return rigFigure(data, figures, placed, key, `${unit === "metre" ? "metres" : "unit baselines"}, in the first station's frame`);
 }

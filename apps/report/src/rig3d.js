@@ -113,13 +113,13 @@ function keys(camera, controls, draw) {
 const upright = (camera) => new THREE.Quaternion().setFromUnitVectors(camera.up, new THREE.Vector3(0, 1, 0));
 const turned = (camera, controls) => camera.position.clone().sub(controls.target).applyQuaternion(upright(camera));
 
-/** A canvas to turn. `figures`: {rig, points} as of report_data(). */
+/** A canvas to turn. `figures`: {rig, points} as of report_data(); a device may have a colour of its own. */
 export function view3d(figures, devices) {
   const canvas = h("canvas", {
     class: "rig",
     tabindex: 0,
     role: "img",
-    "aria-label": "The rig in 3D: devices as frusta, meshes, and lit points. Arrow keys turn it, plus and minus zoom.",
+    "aria-label": "The rig in 3D: devices as frusta, meshes, and points. Arrow keys turn it, plus and minus zoom.",
   });
   const renderer = new THREE.WebGLRenderer({ canvas, antialias: true, alpha: true, preserveDrawingBuffer: true });
   const scene = new THREE.Scene(),
@@ -136,8 +136,8 @@ export function view3d(figures, devices) {
   else meshes.forEach((mesh) => aim.expandByObject(mesh));
   const middle = aim.getCenter(new THREE.Vector3());
   const reach = (d) => new THREE.Vector3(...centre(d)).distanceTo(middle);
-  for (const d of figures.rig.projectors) scene.add(frustum(d, reach(d), vermilion));
-  for (const d of figures.rig.cameras) scene.add(frustum(d, reach(d), blue));
+  for (const d of figures.rig.projectors) scene.add(frustum(d, reach(d), d.colour ?? vermilion));
+  for (const d of figures.rig.cameras) scene.add(frustum(d, reach(d), d.colour ?? blue));
   const controls = new OrbitControls(camera, canvas);
   const corner = (k) => new THREE.Vector3(...[0, 1, 2].map((axis) => (k & (1 << axis) ? aim.max : aim.min).getComponent(axis)));
   place(camera, controls, devices, [

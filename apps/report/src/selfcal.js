@@ -2,6 +2,7 @@
 import * as P from "./plot.js";
 import { h, figure, format, number, section, table } from "./dom.js";
 import { blue, orange } from "./colours.js";
+import { selfcalRig } from "./rig.js";
 
 const stationName = (row) => `${row.device} ${row.station}`;
 
@@ -72,6 +73,7 @@ export function selfcal(data, k) {
     `Self-calibration: ${data.selfcal_names[k]}`,
     stations.length === 0 && h("p", {}, "Nothing was calibrated: the verdict says why."),
     remarks(data, k),
+    selfcalRig(data, k),
     devices.length > 0 && deviceTable(data, k),
     stations.length > 0 &&
       figure(`${data.selfcal_names[k]}: residuals by station, beside the error that noise predicts`, residuals(stations), stationTable(data, k)),

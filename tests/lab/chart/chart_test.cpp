@@ -3,7 +3,7 @@
 
 #include "apps/lab/chart/chart_report.h"
 #include "sim/text_file.h"
-#include "tests/testing.h"
+#include "tests/lab/changed_files.h"
 
 #include <gmock/gmock.h>
 
@@ -143,6 +143,30 @@ TEST(Chart, AnInterruptLeavesWhatIsDone) {
   EXPECT_GE(chart.done, 1u);
   EXPECT_LT(chart.done, 500u);
   EXPECT_EQ(chart.points.size(), chart.done);
+}
+
+TEST(Chart, AnInterruptAfterTheLastPointIsHeard) {
+  const ScratchFolder folder;
+  const auto file = write_text(folder / "s.toml", sweep);
+  const Chart stopped = run_chart(file, folder / "a", {}, [](const std::string& line) {
+    if (line.starts_with("5 of 5 points")) std::raise(SIGINT);
+  });
+  EXPECT_TRUE(stopped.interrupted);
+  EXPECT_EQ(stopped.done, 5u);
+  const Chart resumed = run_chart(file, folder / "a", {.resume = true});
+  EXPECT_FALSE(resumed.interrupted);
+  EXPECT_EQ(results(resumed), results(run_chart(file, folder / "whole", {})));
+}
+
+TEST(Chart, AChangedFileIsNotGoneOnWith) {
+  const ScratchFolder folder;
+  const auto file =
+      write_text(folder / "a.toml",
+                 "[[grid]]\nname = \"a\"\nkind = \"pictures\"\nseeds = 1\nrepeats = 1\nscene = \"s.toml\"\n");
+  testing::write_roof_scene(folder.path());
+  run_chart(file, folder / "out", {});
+  testing::expect_each_change_refused({file, folder / "s.toml", folder / "roof.obj"},
+                                      [&] { run_chart(file, folder / "out", {.resume = true}); });
 }
 
 TEST(Chart, APointAloneIsThePointAmongOthers) {

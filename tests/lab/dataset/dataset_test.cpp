@@ -1,10 +1,12 @@
 #include "apps/lab/dataset/dataset.h"
 
+#include "apps/lab/dataset/drawn_scene.h"
 #include "apps/lab/dataset/sample.h"
 #include "apps/lab/dataset/sha256.h"
 #include "sim/parallel.h"
 #include "sim/scene_build.h"
 #include "sim/text_file.h"
+#include "tests/lab/changed_files.h"
 #include "tests/lab/dataset/specs.h"
 
 #include <archive.h>
@@ -241,11 +243,28 @@ TEST(Dataset, AnotherSetIsNotMixedIn) {
               HasSubstr("seed 3 there, 9 here"));
   testing::write_text(set.spec, without(testing::tiny_spec, "\"gray\", "));
   other.seed = seed_of_all;
-  EXPECT_THAT(input_error([&] { make_dataset(set.spec, set.root, other); }), HasSubstr("spec_sha256"));
+  EXPECT_THAT(input_error([&] { make_dataset(set.spec, set.root, other); }),
+              HasSubstr("spec.toml: has changed since "));
   fs::create_directories(set.scratch / "full");
   testing::write_text(set.scratch / "full" / "file", "");
   EXPECT_THAT(input_error([&] { make_dataset(set.spec, set.scratch / "full", words()); }),
               HasSubstr("holds something else"));
+}
+
+// Also a mesh that the one sample does not draw.
+TEST(Dataset, AChangedFileIsNotGoneOnWith) {
+  const ScratchFolder scratch;
+  const fs::path spec = testing::write_tiny_spec(scratch.path());
+  DatasetOptions options{.count = 1};
+  const auto draws_the_mesh = [&] {
+    const auto values = draw_values(read_dataset_spec(spec), options.seed, 0, 0).values;
+    return std::any_of(values.begin(), values.end(), [](const auto& v) { return v.second == "wedge.ply"; });
+  };
+  while (draws_the_mesh()) ++options.seed;
+  make_dataset(spec, scratch / "set", options);
+  options.resume = true;
+  testing::expect_each_change_refused({spec, scratch / "scene.toml", scratch / "wedge.ply"},
+                                      [&] { make_dataset(spec, scratch / "set", options); });
 }
 
 TEST(Sha256, IsThatOfTheStandard) {  // FIPS 180-4's example

@@ -1,5 +1,6 @@
 #include "apps/lab/plan/choices.h"
 
+#include "apps/lab/plan/answer.h"
 #include "sim/device_spec.h"
 #include "sim/scene_build.h"
 #include "sim/scene_file.h"
@@ -72,9 +73,39 @@ struct Given {
 TEST(Choices, AreWhatTheSceneHas) {
   std::vector<std::string> names;
   for (const Choice& choice : Given{}.choices) names.push_back(choice.name);
-  EXPECT_THAT(names, ElementsAre("shadow", "back_face", "border", "irradiance", "projector_lens",
-                                 "antialiasing", "fill_factor", "inter_reflection", "samples_per_pixel",
-                                 "paths", "bounces", "resolution", "patterns", "projector_lens_terms"));
+  EXPECT_THAT(names,
+              ElementsAre("shadow", "back_face", "border", "irradiance", "projector_lens", "antialiasing",
+                          "fill_factor", "inter_reflection", "samples_per_pixel", "paths", "bounces",
+                          "resolution", "patterns", "projector_lens_terms", "exposure"));
+}
+
+// Blurred rows cost as much for the exposure as for the pictures. With one projector nothing changes.
+TEST(Choices, AFixedExposureIsTheAutomaticOne) {
+  const std::filesystem::path folder = testing::data_folder() / "scenes";
+  const SceneSpec spec = read_scene_spec(folder / "near_focus.toml");
+  const std::vector<Choice> choices = choices_of(spec, build_scene(spec, folder), folder);
+  ASSERT_EQ(choices.back().name, "exposure");
+  Levels levels(choices.size(), 0);
+  levels.back() = 1;
+  const SceneSpec fixed = at_levels(spec, choices, levels);
+  EXPECT_GT(fixed.cameras[0].sensor.saturation_cd_per_m2, 0.0);
+  const auto answers = [&](const SceneSpec& of) {
+    return round_trip_json(round_trip(of, folder, testing::seed())).at("answers");
+  };
+  EXPECT_EQ(answers(fixed), answers(spec));
+  for (std::size_t k = 0; k + 1 < choices.size(); ++k) levels[k] = int(choices[k].name == "irradiance");
+  const SceneSpec brighter = at_levels(spec, choices, levels);  // without the light's falling off
+  EXPECT_NE(brighter.cameras[0].sensor.saturation_cd_per_m2, fixed.cameras[0].sensor.saturation_cd_per_m2);
+}
+
+TEST(Choices, AnExposureThatTakesNoRaysIsNone) {
+  SceneSpec plain = Given{}.spec;
+  plain.effects.antialiasing = plain.effects.fill_factor = plain.effects.inter_reflection = false;
+  for (const Choice& choice : choices_of(plain, build_scene(plain, {}), {}))
+    EXPECT_NE(choice.name, "exposure");
+  SceneSpec told = Given{}.spec;
+  told.cameras[0].sensor.saturation_cd_per_m2 = 100;
+  for (const Choice& choice : choices_of(told, build_scene(told, {}), {})) EXPECT_NE(choice.name, "exposure");
 }
 
 TEST(Choices, LevelsAreCheaperAndCheaper) {

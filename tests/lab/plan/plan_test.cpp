@@ -4,7 +4,7 @@
 #include "sim/scene_build.h"
 #include "sim/scene_file.h"
 #include "sim/text_file.h"
-#include "tests/testing.h"
+#include "tests/lab/changed_files.h"
 
 #include <gmock/gmock.h>
 
@@ -136,6 +136,38 @@ TEST(Plan, AnInterruptLeavesWhatIsDone) {
   person.join();
   EXPECT_TRUE(plan.interrupted);
   EXPECT_THAT(read_text(journal, 1 << 20), HasSubstr("result"));
+}
+
+// Told of all the last run's trials, a person presses ctrl-C: nothing is left but to write the scene.
+TEST(Plan, AnInterruptAfterTheLastTrialIsHeard) {
+  const ScratchFolder folder;
+  const auto scene = write_text(folder / "s.toml", small);
+  const auto ends_a_run = [](const std::string& line) { return line.ends_with(", 0:00 left"); };
+  int runs = 0;
+  const Plan whole = make_plan(scene, folder / "whole", {.tolerance_px = 0.05, .seeds = 2},
+                               [&](const std::string& line) { runs += ends_a_run(line); });
+  int left = runs;
+  const Plan stopped =
+      make_plan(scene, folder / "a", {.tolerance_px = 0.05, .seeds = 2}, [&](const std::string& line) {
+        if (ends_a_run(line) && --left == 0) std::raise(SIGINT);
+      });
+  EXPECT_FALSE(whole.interrupted);
+  EXPECT_EQ(left, 0);
+  EXPECT_TRUE(stopped.interrupted);
+  const Plan resumed = make_plan(scene, folder / "a", {.tolerance_px = 0.05, .seeds = 2, .resume = true},
+                                 [](const std::string& line) { ADD_FAILURE() << line; });  // nothing to run
+  EXPECT_FALSE(resumed.interrupted);
+  EXPECT_EQ(results(resumed), results(whole));
+}
+
+TEST(Plan, AChangedFileIsNotGoneOnWith) {
+  const ScratchFolder folder;
+  const auto scene = testing::write_roof_scene(folder.path());
+  PlanOptions options{.tolerance_px = 1, .seeds = 2};
+  make_plan(scene, folder / "a", options, [](const std::string&) { std::raise(SIGINT); });
+  options.resume = true;
+  testing::expect_each_change_refused({scene, folder / "roof.obj"},
+                                      [&] { make_plan(scene, folder / "a", options); });
 }
 
 // With a tolerance near 0, nothing that moves light can be dropped, and the report says why.
