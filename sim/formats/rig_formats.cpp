@@ -131,7 +131,12 @@ Rig read_usd(const fs::path& path, const RigReadOptions& options) {
 }
 std::vector<RigText> usd_texts(const Rig& rig, Notes& notes) { return {{"", usd_camera_text(rig, notes)}}; }
 
-bool is_exr(const fs::path& path, const Tree&) { return is_or_holds(path, ".exr"); }
+// A folder of nothing else: others hold maps beside what they are about.
+bool is_exr(const fs::path& path, const Tree&) {
+  if (!fs::is_directory(path)) return path.extension() == ".exr";
+  const std::vector<fs::path> files = files_at(path, ".exr");
+  return !files.empty() && std::ptrdiff_t(files.size()) == std::distance(fs::directory_iterator(path), {});
+}
 Rig read_exr(const fs::path& path, const RigReadOptions&) {
   Rig rig;
   for (const fs::path& file : files_at(path, ".exr")) add_by_name(rig, read_exr_camera(file));

@@ -2,7 +2,6 @@
 
 #include "apps/lab/atlas/cell_kinds.h"
 #include "apps/lab/cell_seed.h"
-#include "apps/lab/files_digest.h"
 #include "apps/lab/grid_settings.h"
 #include "apps/lab/json_number.h"
 #include "apps/lab/shell_word.h"
@@ -167,18 +166,6 @@ std::vector<Planned> sampled(std::vector<Planned> planned, const AtlasOptions& o
   return planned;
 }
 
-std::string digest_of_files(const std::vector<Planned>& planned, const std::string& place,
-                            const std::filesystem::path& folder) {
-  std::vector<std::filesystem::path> files;
-  for (const Planned& p : planned) {
-    const CellKind& kind = cell_kind(p.cell.kind, place);
-    if (!kind.files) continue;
-    const auto read = kind.files(p.cell.values, place, folder);
-    files.insert(files.end(), read.begin(), read.end());
-  }
-  return files_digest(std::move(files));
-}
-
 std::string fingerprint(const std::string& text, const std::string& digest, const AtlasOptions& options) {
   return fmt::format("atlas {:016x} files {} seed {} long {} methods {} cell {} sample {}", hash_of(text),
                      digest, options.seed, options.long_run, fmt::join(options.methods, ","), options.cell,
@@ -195,7 +182,9 @@ Atlas run_atlas(const std::filesystem::path& specification, const std::filesyste
     plan_grid(grid, specification.parent_path(), options, planned);
   planned = sampled(std::move(planned), options);
   if (planned.empty()) throw InputError(specification.string() + ": no cell matches what is asked for");
-  const std::string digest = digest_of_files(planned, specification.string(), specification.parent_path());
+  std::vector<CellValues> cells;
+  for (const Planned& p : planned) cells.push_back({p.cell.kind, p.cell.values, specification.string()});
+  const std::string digest = digest_of_files(cells, specification.parent_path());
   std::vector<Job> jobs;
   for (const Planned& p : planned)
     jobs.push_back({p.cell.method + ": " + p.cell.name,

@@ -1,5 +1,6 @@
 #include "apps/lab/atlas/cell_kinds.h"
 
+#include "apps/lab/files_digest.h"
 #include "sim/error.h"
 
 #include <fmt/format.h>
@@ -21,6 +22,17 @@ const CellKind& cell_kind(const std::string& name, const std::string& place) {
   for (const CellKind& kind : kinds)
     if (kind.name == name) return kind;
   throw InputError(fmt::format("{}: the kind is \"{}\", expected points, boards or pictures", place, name));
+}
+
+std::string digest_of_files(const std::vector<CellValues>& cells, const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> files;
+  for (const CellValues& cell : cells) {
+    const CellKind& kind = cell_kind(cell.kind, cell.place);
+    if (!kind.files) continue;
+    const auto read = kind.files(cell.values, cell.place, folder);
+    files.insert(files.end(), read.begin(), read.end());
+  }
+  return files_digest(std::move(files));
 }
 
 }  // namespace laterna

@@ -66,4 +66,14 @@ CellKind picture_cells();
 /// By name. Throws InputError, beginning with `place`, for another one.
 const CellKind& cell_kind(const std::string& name, const std::string& place);
 
+/// One cell of a specification, as far as it tells the files that the cell reads.
+struct CellValues {
+  std::string kind;
+  nlohmann::json values;
+  std::string place;  ///< for messages
+};
+
+/// files_digest() of all the files that the cells read. Throws as `prepare` does.
+std::string digest_of_files(const std::vector<CellValues>& cells, const std::filesystem::path& folder);
+
 }  // namespace laterna
