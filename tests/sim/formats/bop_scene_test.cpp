@@ -32,7 +32,7 @@ Image<T> image(std::vector<T> values) {
   return picture;
 }
 
-// 16-bit and 8-bit PNGs of 4 × 2 pixels, uncompressed: what another writer's look like.
+// Its pictures of 4 × 2 pixels; PNG itself is the codec's.
 void write_scene_by_hand(const fs::path& folder) {
   for (const char* kind : {"depth", "mask", "mask_visib"}) fs::create_directories(folder / kind);
   testing::write_text(folder / "scene_camera.json", cameras_by_hand);
