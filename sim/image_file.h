@@ -7,6 +7,7 @@
 #include <glm/gtc/type_precision.hpp>
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -16,12 +17,22 @@ namespace laterna {
 /// What one value of a picture is: a digital number of 8 or 16 bits, or a float.
 enum class PixelType { u8, u16, f32 };
 
+/// The camera of a picture as an EXR file's header holds it, in single precision; column vectors here, row
+/// vectors there. sim/formats/exr_camera.h says what the frames are, and makes it from a Device and back.
+struct PictureCamera {
+  std::string name{};                            ///< "cameraLabel"; empty: none
+  std::optional<glm::mat4> camera_from_world{};  ///< "worldToCamera"
+  std::optional<glm::mat4> window_from_world{};  ///< "worldToNDC"
+};
+
 /// A picture to be written: the channels of a pixel side by side, pixels row by row from the top.
 struct PictureView {
   const void* data = nullptr;  ///< width·height·channels values of `type`
   int width = 0, height = 0, channels = 0;
   PixelType type = PixelType::u8;
   std::vector<std::string> channel_names;  ///< empty, or one per channel; only EXR keeps them
+  PictureCamera camera{};                  ///< only EXR keeps it
+  glm::ivec2 window{0, 0};  ///< EXR's display window, of which these are the upper left pixels; 0: all of it
 };
 
 /// Writes a picture whole or not at all (sim/safe_write.h). The extension chooses the format:
@@ -56,7 +67,9 @@ struct Picture {
   int width = 0, height = 0;
   std::vector<std::string> channel_names;
   std::variant<std::vector<std::uint8_t>, std::vector<std::uint16_t>, std::vector<float>> values;
-  bool half = false;  ///< whether the floats stand in the file in half precision
+  bool half = false;        ///< whether the floats stand in the file in half precision
+  PictureCamera camera{};   ///< of an EXR whose header says it
+  glm::ivec2 window{0, 0};  ///< size of the whole picture, of which a cropped EXR holds a part
 };
 
 /// Reads any picture that OpenImageIO knows. Every reader of this page throws InputError, naming the path,
@@ -101,6 +114,7 @@ Image<glm::vec3> read_rgb_float(const std::filesystem::path& path, Encoding enco
 struct ExrLayers {
   std::vector<std::string> names;
   std::vector<Image<float>> planes;  ///< one per name
+  PictureCamera camera{};            ///< whose pixels they are
 };
 
 /// Writes planes as channels of one EXR file (32-bit float, ZIP). Throws InputError as write_picture does,

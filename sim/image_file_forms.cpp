@@ -84,14 +84,15 @@ void write_exr_layers(const fs::path& path, const ExrLayers& layers) {
                                plane.width, plane.height, width, height));
     for (std::size_t i = 0; i < plane.values.size(); ++i) interleaved[i * count + c] = plane.values[i];
   }
-  write_picture(path, {interleaved.data(), width, height, int(count), PixelType::f32, layers.names});
+  write_picture(path,
+                {interleaved.data(), width, height, int(count), PixelType::f32, layers.names, layers.camera});
 }
 
 ExrLayers read_exr_layers(const fs::path& path) {
   const Picture picture = read_picture(path);
   const auto* values = std::get_if<std::vector<float>>(&picture.values);
   if (values == nullptr) refuse(path, "holds integers, expected an EXR file of floats");
-  ExrLayers layers{picture.channel_names, {}};
+  ExrLayers layers{picture.channel_names, {}, picture.camera};
   const std::size_t count = layers.names.size();
   for (std::size_t c = 0; c < count; ++c) {
     Image<float>& plane = layers.planes.emplace_back(picture.width, picture.height);

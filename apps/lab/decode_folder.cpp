@@ -54,7 +54,7 @@ DecodedSequence decode_sequence(const std::filesystem::path& folder, const Captu
                          options);
 }
 
-void write_decoded(const std::filesystem::path& path, const DecodedMap& map) {
+void write_decoded(const std::filesystem::path& path, const DecodedMap& map, const PictureCamera& camera) {
   const std::vector<std::string> names{"projector.u", "projector.v", "sigma.px", "confidence", "valid"};
   std::vector<float> data;
   data.reserve(map.valid.values.size() * names.size());
@@ -62,7 +62,7 @@ void write_decoded(const std::filesystem::path& path, const DecodedMap& map) {
     data.insert(data.end(), {float(map.u_px.values[i]), float(map.v_px.values[i]), map.sigma_px.values[i],
                              map.confidence.values[i], float(map.valid.values[i])});
   }
-  write_picture(path, {data.data(), map.width, map.height, int(names.size()), PixelType::f32, names});
+  write_picture(path, {data.data(), map.width, map.height, int(names.size()), PixelType::f32, names, camera});
 }
 
 double valid_percent(const DecodedMap& map) {

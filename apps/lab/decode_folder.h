@@ -4,6 +4,7 @@
 #include "calib/decode.h"
 #include "calib/decode_report.h"
 #include "sim/capture_folder.h"
+#include "sim/image_file.h"
 
 #include <filesystem>
 #include <optional>
@@ -32,8 +33,10 @@ DecodedSequence decode_sequence(const std::filesystem::path& folder, const Captu
 DecodedSequence decode_sequence(const std::filesystem::path& folder, const CaptureSequence& sequence,
                                 const CapturedStack& pictures, const DecodeOptions& options);
 
-/// Layers projector.u, projector.v (px), sigma.px, confidence, valid, in single precision.
-void write_decoded(const std::filesystem::path& path, const DecodedMap& map);
+/// Layers projector.u, projector.v (px), sigma.px, confidence, valid, in single precision. The header carries
+/// the camera where it is known.
+void write_decoded(const std::filesystem::path& path, const DecodedMap& map,
+                   const PictureCamera& camera = {});
 
 /// Share of valid pixels, in per cent.
 double valid_percent(const DecodedMap& map);

@@ -6,6 +6,7 @@
 #include "render/replay.h"
 #include "render/trace_rows.h"
 #include "sim/error.h"
+#include "sim/formats/exr_camera.h"
 #include "sim/image_file.h"
 
 #include <fmt/format.h>
@@ -164,19 +165,21 @@ void render_picture(const Scene& scene, const RenderOptions& options, const std:
                     StageTimes& times) {
   const Selected selected(scene, options, times);
   const bool numbers = target.extension() == ".exr";
-  const auto write = [&](const Image<float>& picture) {
-    if (numbers) return write_picture(target, picture);
+  const auto write = [&](const Image<float>& picture, const Device& by) {
+    if (numbers) return write_exr_layers(target, {{"Y"}, {picture}, picture_camera(by)});
     write_picture(target, exposed(picture));
   };
   switch (options.kind) {
     case RenderKind::photo:
       if (!numbers) return write_photograph(selected, options, target, times);
-      return write(photograph_cd_per_m2(selected, options, options.show));
+      return write(photograph_cd_per_m2(selected, options, options.show),
+                   scene.cameras[selected.camera].device);
     case RenderKind::dual:
-      return write(times.measure("transpose", [&] { return dual_cd_per_m2(selected, options); }));
+      return write(times.measure("transpose", [&] { return dual_cd_per_m2(selected, options); }),
+                   selected.source().device);
     case RenderKind::bake: {
       const BakedTexture texture = times.measure("bake", [&] { return bake(selected, options); });
-      if (!numbers) return write(texture.value);
+      if (!numbers) return write_picture(target, exposed(texture.value));
       return write_exr_layers(target, {{"Y", "covered"}, {texture.value, as_float(texture.covered)}});
     }
   }

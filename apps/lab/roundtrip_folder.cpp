@@ -7,6 +7,7 @@
 #include "apps/lab/summary_picture.h"
 #include "apps/lab/trial_report.h"
 #include "render/effects/apply_effects.h"
+#include "sim/formats/exr_camera.h"
 #include "sim/image_file.h"
 #include "sim/safe_write.h"
 
@@ -146,7 +147,8 @@ void write_results(const Scene& scene, const std::string& scene_name, const Trac
     const std::string stem = stem_of(scene, *k.view);
     out.files.push_back("summary_" + stem + ".png");
     write_canvas(root / out.files.back(), summary_picture(panels_of(scene, scene_name, traced, k, outcome)));
-    write_decoded(root / ("decoded_" + stem + ".exr"), k.decoded);
+    write_decoded(root / ("decoded_" + stem + ".exr"), k.decoded,
+                  picture_camera(scene.cameras[k.view->camera].device));
   }
   for (const Kept& k : kept) out.files.push_back("decoded_" + stem_of(scene, *k.view) + ".exr");
   write_file(root / "estimate.json", estimates_text(estimates));

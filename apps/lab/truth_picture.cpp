@@ -1,5 +1,6 @@
 #include "apps/lab/truth_picture.h"
 
+#include "sim/formats/exr_camera.h"
 #include "sim/image_file.h"
 #include "sim/parallel.h"
 
@@ -43,7 +44,8 @@ void write_truth(const std::filesystem::path& path, const Scene& given, const Sc
     write_strip(scene, rig, strip.surface, strip.light,
                 data.data() + row * tile_edge * std::size_t(width) * layers().size());
   });
-  write_picture(path, {data.data(), width, height, int(layers().size()), PixelType::f32, layers()});
+  write_picture(path, {data.data(), width, height, int(layers().size()), PixelType::f32, layers(),
+                       picture_camera(scene.cameras[camera].device)});
 }
 
 }  // namespace laterna

@@ -1,5 +1,6 @@
 #include "apps/laterna/command.h"
 
+#include "apps/lab/bop_export.h"
 #include "apps/lab/capture_cloud.h"
 #include "apps/lab/capture_export.h"
 #include "sim/error.h"
@@ -33,8 +34,11 @@ std::string formats_text() {
          "  scan3d                       set_NN/cam_NN.png and projector_info.txt of scan3d-capture\n"
          "  slstudio                     frameSeq_NN/frameSeq_NN.png of SLStudio\n"
          "  vnl                          corners.vnl of mrcal's tools, with --board\n"
+         "  bop                          a scene of BOP's: cameras, depth, gray, mask and mask_visib\n"
          "  ply            .ply          the points that were lit: of the truth, or --decoded and "
-         "intersected";
+         "intersected\n"
+         "Of a scene's folder of BOP's, into a new folder:\n"
+         "  exr                          depth and objects as layers, the camera in the header";
 }
 
 glm::ivec2 size_of(const std::string& text, const char* option) {
@@ -59,6 +63,21 @@ void convert_cloud(const Words& words) {
   write_file(words.to, std::string_view(point_cloud_ply(points)));
 }
 
+// A capture into a scene of BOP's, or such a scene into layers.
+bool wants_bop(const Words& words) {
+  namespace fs = std::filesystem;
+  return words.as == "bop"
+             ? fs::exists(fs::path(words.from) / "manifest.json") && !fs::path(words.to).has_extension()
+             : words.as == "exr" && is_bop_scene(words.from);
+}
+
+void convert_bop(const Words& words, Notes& notes) {
+  if (words.as == "exr") return write_bop_layers(words.to, read_bop_scene(words.from));
+  PendingFolder folder(words.to);
+  write_bop_scene(folder.path(), bop_pictures(words.from, notes), notes);
+  folder.commit();
+}
+
 // A folder of pictures where TO has no ending and FROM is no calibration.
 bool wants_pictures(const Words& words) {
   return words.as == "vnl" || (is_capture_layout(words.as) && std::filesystem::is_directory(words.from) &&
@@ -70,6 +89,8 @@ Notes convert(const Words& words, const Common& common) {
   if (std::filesystem::exists(words.to)) throw InputError(words.to + ": is there already");
   if (words.as == "ply" || (words.as.empty() && words.to.ends_with(".ply"))) {
     convert_cloud(words);
+  } else if (wants_bop(words)) {
+    convert_bop(words, notes);
   } else if (wants_pictures(words)) {
     CaptureExport what = words.capture;
     what.layout = words.as;

@@ -46,12 +46,26 @@ OIIO::TypeDesc file_type_of(PixelType type, bool is_exr) {
   return type == PixelType::u8 ? OIIO::TypeHalf : OIIO::TypeFloat;
 }
 
+// OpenImageIO's names of the header's cameraLabel, worldToCamera and worldToNDC.
+constexpr const char *label_name = "cameraLabel", *camera_name = "worldtocamera", *window_name = "worldtoNDC";
+
+/// GLM holds column vectors' matrices column by column, the file row vectors' row by row: the same numbers.
+void add_camera(OIIO::ImageSpec& spec, const PictureCamera& camera) {
+  if (!camera.name.empty()) spec.attribute(label_name, camera.name);
+  if (camera.camera_from_world)
+    spec.attribute(camera_name, OIIO::TypeMatrix, &(*camera.camera_from_world)[0][0]);
+  if (camera.window_from_world)
+    spec.attribute(window_name, OIIO::TypeMatrix, &(*camera.window_from_world)[0][0]);
+}
+
 OIIO::ImageSpec spec_of(const PictureView& picture, const fs::path& extension) {
   const bool is_exr = extension == ".exr";
   const char* compression = is_exr ? "zip" : extension == ".png" ? "rle" : "none";
   OIIO::ImageSpec spec(picture.width, picture.height, picture.channels, file_type_of(picture.type, is_exr));
   if (!picture.channel_names.empty()) spec.channelnames = picture.channel_names;
   spec.alpha_channel = spec.z_channel = -1;
+  if (is_exr) add_camera(spec, picture.camera);
+  if (is_exr && picture.window.x > 0) spec.full_width = picture.window.x, spec.full_height = picture.window.y;
   spec.attribute("compression", compression);
   spec.attribute("png:compressionLevel", 1);
   spec.attribute("png:filter",
@@ -161,6 +175,19 @@ std::vector<T> read_values(const fs::path& path, OIIO::ImageInput& input, int pa
   return values;
 }
 
+std::optional<glm::mat4> matrix_in(const OIIO::ImageSpec& spec, const char* name) {
+  const OIIO::ParamValue* found = spec.find_attribute(name, OIIO::TypeMatrix);
+  if (found == nullptr) return std::nullopt;
+  glm::mat4 matrix;
+  std::memcpy(&matrix[0][0], found->data(), sizeof matrix);
+  return matrix;
+}
+
+PictureCamera camera_in(const OIIO::ImageSpec& spec) {
+  return {std::string(spec.get_string_attribute(label_name)), matrix_in(spec, camera_name),
+          matrix_in(spec, window_name)};
+}
+
 Picture read(const fs::path& path, int page) {
   const auto input = open(path);
   if (!input->seek_subimage(page, 0))
@@ -168,6 +195,8 @@ Picture read(const fs::path& path, int page) {
   validate(path, *input);
   const OIIO::ImageSpec& spec = input->spec();
   Picture picture{spec.width, spec.height, spec.channelnames, {}, spec.format == OIIO::TypeHalf};
+  if (path.extension() == ".exr") picture.camera = camera_in(spec);
+  picture.window = {spec.full_width, spec.full_height};
   if (spec.format == OIIO::TypeUInt8)
     picture.values = read_values<std::uint8_t>(path, *input, page);
   else if (spec.format == OIIO::TypeUInt16)

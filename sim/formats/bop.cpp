@@ -10,7 +10,9 @@ namespace {
 
 constexpr double metres_per_millimetre = 1e-3;
 
-Device device_of(const Place& entry, const std::string& key) {
+}  // namespace
+
+Device bop_device(const Place& entry, const std::string& key) {
   Device device;
   device.name = entry.has("name") ? entry.at("name").text() : key;
   const glm::ivec2 size =
@@ -25,8 +27,6 @@ Device device_of(const Place& entry, const std::string& key) {
   return device;
 }
 
-}  // namespace
-
 bool is_bop(const Tree& tree) {
   return tree.is_object() && !tree.empty() && tree.begin()->is_object() && tree.begin()->contains("cam_K");
 }
@@ -36,7 +36,7 @@ Rig parse_bop(const std::string& text, const std::string& file_name) {
   const Place file{&tree, file_name};
   if (!tree.is_object()) fail_at(file, "a camera for each picture");
   Rig rig;
-  for (const auto& [key, entry] : tree.items()) add_by_name(rig, device_of(file.at(key), key));
+  for (const auto& [key, entry] : tree.items()) add_by_name(rig, bop_device(file.at(key), key));
   return rig;
 }
 

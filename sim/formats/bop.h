@@ -18,6 +18,9 @@ namespace laterna {
 
 bool is_bop(const Tree& tree);
 
+/// One camera of the file; `key` is its name where it has none.
+Device bop_device(const Place& entry, const std::string& key);
+
 /// A camera without R and t stands at the world's origin. Throws InputError, beginning with `file_name` and
 /// the key.
 Rig parse_bop(const std::string& text, const std::string& file_name);

@@ -10,8 +10,6 @@ namespace laterna {
 
 namespace {
 
-// device_from_node and its own inverse: x right, y down, z forward against x right, y up, looking along -z.
-const Rigid flip{glm::dmat3(1, 0, 0, 0, -1, 0, 0, 0, -1), {}};
 const char* const block = "LATERNA_device";
 
 Rigid parent_from_node(const Place& node) {
@@ -111,7 +109,7 @@ class Reader {
     Device device =
         ours ? from_block(camera.at("extensions").at(block)) : from_perspective(camera, camera_size_);
     device.name = node.has("name") ? node.at("name").text() : fmt::format("camera{}", i);
-    device.device_from_world = compose(flip, inverse(world_from_node));
+    device.device_from_world = compose(view_from_device(), inverse(world_from_node));
     if (!ours)
       add_by_name(rig_, std::move(device));
     else if (camera.at("extensions").at(block).at("kind").text() == "projector")
@@ -182,9 +180,10 @@ std::string gltf_text(const Rig& rig, Notes& notes) {
                                                               : "lens",
                                   d.name, block));
     roots.push_back(file["nodes"].size());
-    file["nodes"].push_back({{"name", d.name},
-                             {"camera", file["cameras"].size()},
-                             {"matrix", matrix_of_node(compose(inverse(d.device_from_world), flip))}});
+    file["nodes"].push_back(
+        {{"name", d.name},
+         {"camera", file["cameras"].size()},
+         {"matrix", matrix_of_node(compose(inverse(d.device_from_world), view_from_device()))}});
     file["cameras"].push_back(camera_json(d, projects ? "projector" : "camera"));
   }
   file["scenes"] = Tree::array({{{"nodes", roots}}});

@@ -75,6 +75,8 @@ std::vector<double> opencv_coefficients(const Device& device, const char* format
   return device.lens.parameters;
 }
 
+Rigid view_from_device() { return {glm::dmat3(1, 0, 0, 0, -1, 0, 0, 0, -1), {}}; }
+
 bool names_projector(const std::string& name) {
   constexpr std::string_view beginning = "proj";
   return name.size() >= beginning.size() &&

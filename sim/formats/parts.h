@@ -33,6 +33,10 @@ Lens lens_from_opencv(std::vector<double> coefficients, const std::string& place
 /// none of OpenCV's, or has more than `most` coefficients.
 std::vector<double> opencv_coefficients(const Device& device, const char* format, std::size_t most = 12);
 
+/// The frame of OpenGL, glTF and OpenUSD (x right, y up, looking along -z) from a device's (x right, y down,
+/// z forward), and back: diag(1, -1, -1) is its own inverse.
+Rigid view_from_device();
+
 /// Whether a name begins with "proj", in any case: what tells projectors in formats that know cameras only.
 bool names_projector(const std::string& name);
 /// Puts a device among the projectors or the cameras by its name.

@@ -3,7 +3,9 @@
 #include "sim/capture_folder.h"
 #include "sim/error.h"
 #include "sim/formats/bop.h"
+#include "sim/formats/bop_scene.h"
 #include "sim/formats/colmap.h"
+#include "sim/formats/exr_camera.h"
 #include "sim/formats/gltf.h"
 #include "sim/formats/kalibr.h"
 #include "sim/formats/laterna_rig.h"
@@ -111,8 +113,10 @@ std::vector<RigText> ros_texts(const Rig& rig, Notes& notes) {
   return file_each(rig, ".yaml", [&](const Device& device) { return camera_info_text(device, notes); });
 }
 
-bool is_bop_file(const fs::path&, const Tree& tree) { return is_bop(tree); }
-Rig read_bop(const fs::path& path, const RigReadOptions&) { return parse_bop(text_of(path), path.string()); }
+bool is_bop_file(const fs::path& path, const Tree& tree) { return is_bop(tree) || is_bop_scene(path); }
+Rig read_bop(const fs::path& path, const RigReadOptions&) {
+  return is_bop_scene(path) ? read_bop_cameras(path) : parse_bop(text_of(path), path.string());
+}
 std::vector<RigText> bop_texts(const Rig& rig, Notes& notes) { return {{"", bop_text(rig, notes)}}; }
 
 bool is_gltf_file(const fs::path&, const Tree& tree) { return is_gltf(tree); }
@@ -126,6 +130,22 @@ Rig read_usd(const fs::path& path, const RigReadOptions& options) {
   return parse_usd_cameras(text_of(path), options.camera_size, path.string());
 }
 std::vector<RigText> usd_texts(const Rig& rig, Notes& notes) { return {{"", usd_camera_text(rig, notes)}}; }
+
+// A folder of nothing else: others hold maps beside what they are about.
+bool is_exr(const fs::path& path, const Tree&) {
+  if (!fs::is_directory(path)) return path.extension() == ".exr";
+  const std::vector<fs::path> files = files_at(path, ".exr");
+  return !files.empty() && std::ptrdiff_t(files.size()) == std::distance(fs::directory_iterator(path), {});
+}
+Rig read_exr(const fs::path& path, const RigReadOptions&) {
+  Rig rig;
+  for (const fs::path& file : files_at(path, ".exr")) add_by_name(rig, read_exr_camera(file));
+  return rig;
+}
+std::vector<RigText> exr_texts(const Rig& rig, Notes& notes) {
+  note_projectors(rig, "EXR", notes);
+  return file_each(rig, ".exr", exr_camera_bytes);
+}
 
 // A scene, or the scene of a capture folder.
 bool is_scene(const fs::path& path, const Tree&) {
@@ -157,7 +177,10 @@ constexpr std::array formats = {
     RigFormat{"gltf", ".gltf", "cameras of glTF, with a block LATERNA_device", true, is_gltf_file, read_gltf,
               gltf_texts},
     RigFormat{"usd", ".usda", "cameras of OpenUSD, as text", true, is_usd, read_usd, usd_texts},
-    RigFormat{"bop", "", "BOP's scene_camera.json", true, is_bop_file, read_bop, bop_texts},
+    RigFormat{"exr", ".exr", "worldToCamera and worldToNDC of OpenEXR; several devices: a folder of them",
+              false, is_exr, read_exr, exr_texts},
+    RigFormat{"bop", "", "BOP's scene_camera.json, or a scene's folder with one", true, is_bop_file, read_bop,
+              bop_texts},
     RigFormat{"kalibr", "", "kalibr's camchain.yaml", true, is_kalibr, read_kalibr, kalibr_texts},
     RigFormat{"ros", ".yaml", "ROS's camera_info; several devices: a folder of them", true, is_ros, read_ros,
               ros_texts},

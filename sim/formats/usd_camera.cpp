@@ -13,8 +13,6 @@ namespace laterna {
 
 namespace {
 
-const Rigid flip{glm::dmat3(1, 0, 0, 0, -1, 0, 0, 0, -1), {}};  // as in glTF
-
 // The numbers of "((1, 0), (0, 1))", "[1, 2]" or "3".
 std::vector<double> numbers_in(const std::string& value, const std::string& place) {
   std::vector<double> numbers;
@@ -232,7 +230,8 @@ class Reader {
       device.lens = {model, parameters == prim.attributes.end() ? std::vector<double>{}
                                                                 : numbers_in(parameters->second, file_)};
     }
-    device.device_from_world = compose(flip, inverse(compose(prim.world_from_parent, prim.parent_from_prim)));
+    device.device_from_world =
+        compose(view_from_device(), inverse(compose(prim.world_from_parent, prim.parent_from_prim)));
     const std::string kind = text_at(prim, "laterna:kind");
     if (kind.empty())
       add_by_name(rig_, std::move(device));
@@ -268,8 +267,8 @@ std::string camera_text(const Device& d, const char* kind) {
       "    custom string laterna:lensModel = \"{}\"\n    custom double[] laterna:lensParameters = [{}]\n}}\n",
       d.name, f, w, h, ((k.size.x - 1) / 2.0 - k.cx) / k.size.x * w,
       (k.cy - (k.size.y - 1) / 2.0) / k.size.y * h,
-      transform_text(compose(inverse(d.device_from_world), flip)), k.size.x, k.size.y, kind, d.lens.model,
-      joined(d.lens.parameters));
+      transform_text(compose(inverse(d.device_from_world), view_from_device())), k.size.x, k.size.y, kind,
+      d.lens.model, joined(d.lens.parameters));
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 // Calibrations and captures in other people's formats, as a person would convert them.
+#include "sim/formats/bop_scene.h"
 #include "sim/formats/rig_file.h"
 #include "sim/image_file.h"
 #include "tests/command/run_command.h"
@@ -126,6 +127,73 @@ TEST(Convert, GrayCodesInTheOrderOfOtherTools) {
   EXPECT_FALSE(fs::exists(set / "cam_23.png"));
   ASSERT_EQ(laterna("convert capture slstudio --as slstudio", scratch.path()).exit_code, 0);
   EXPECT_EQ(bytes_of(scratch / "slstudio" / "frameSeq_00" / "frameSeq_23.png"), bytes_of(ours / "23.png"));
+}
+
+const Image<float>& layer(const ExrLayers& layers, const std::string& name) {
+  const auto found = std::find(layers.names.begin(), layers.names.end(), name);
+  EXPECT_NE(found, layers.names.end()) << name;
+  return layers.planes.at(std::size_t(found - layers.names.begin()));
+}
+
+// A board half a metre before the plane hides a part of it.
+const std::string two_meshes = std::string(small) + R"(
+[[mesh]]
+shape = "plane"
+name = "board"
+shape_size = [0.3, 0.2, 1]
+translate = [0.05, 0.02, 0.5]
+)";
+
+TEST(Convert, ATruthMapIsItsCamera) {
+  const ScratchFolder scratch;
+  testing::write_text(scratch / "small.toml", small);
+  ASSERT_EQ(laterna("capture small.toml -o capture", scratch.path()).exit_code, 0);
+  const auto result = laterna("convert capture/truth/camera_projector.exr a.json", scratch.path());
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const Device read = read_rig(scratch / "a.json").cameras.at(0),
+               truth = read_rig(scratch / "small.toml").cameras.at(0);
+  EXPECT_EQ(read.name, "camera");
+  const glm::dvec3 x_world(0.1, 0.05, 0);
+  // The file's numbers are in single precision: 6e-8 of each, and some are added up, of tens of pixels.
+  EXPECT_LT(glm::distance(WorldProjection(read).project(x_world), WorldProjection(truth).project(x_world)),
+            1e-5);
+}
+
+TEST(Convert, ACaptureIsASceneOfBops) {
+  const ScratchFolder scratch;
+  testing::write_text(scratch / "small.toml", two_meshes);
+  ASSERT_EQ(laterna("capture small.toml -o capture", scratch.path()).exit_code, 0);
+  const auto result = laterna("convert capture bop --as bop", scratch.path());
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const ExrLayers truth = read_exr_layers(scratch / "capture" / "truth" / "camera_projector.exr");
+  const Image<float>&depth_m = layer(truth, "depth.m"), &id = layer(truth, "object.id");
+  const std::vector<BopPicture> pictures = read_bop_scene(scratch / "bop");
+  ASSERT_EQ(pictures.size(), 1u);
+  ASSERT_EQ(pictures[0].objects.size(), 2u);
+  const BopObject &plane = pictures[0].objects[0], &board = pictures[0].objects[1];
+  std::size_t hidden = 0, seen = 0;
+  for (std::size_t i = 0; i < depth_m.values.size(); ++i) {
+    const float depth = pictures[0].depth_m.values[i];
+    ASSERT_EQ(std::isfinite(depth), std::isfinite(depth_m.values[i]));
+    if (std::isfinite(depth)) {
+      ASSERT_NEAR(depth, depth_m.values[i], 0.51e-4);  // in steps of 0.1 mm: half of one is lost
+    }
+    ASSERT_EQ(plane.visible.values[i], id.values[i] == 0 ? 255 : 0);
+    ASSERT_EQ(board.visible.values[i], id.values[i] == 1 ? 255 : 0);
+    ASSERT_EQ(board.silhouette.values[i], board.visible.values[i]);  // nothing stands before it
+    hidden += plane.silhouette.values[i] != plane.visible.values[i];
+    seen += board.visible.values[i] != 0;
+  }
+  EXPECT_GT(seen, 20u);
+  EXPECT_EQ(hidden, seen);  // the plane goes on behind the whole board
+  // The pose: the board's middle is where the world has it.
+  const glm::dvec3 there = apply(pictures[0].camera.device_from_world, {0.05, 0.02, 0.5});
+  EXPECT_LT(glm::distance(apply(board.camera_from_model, glm::dvec3(0)), there),
+            1e-12);  // millimetres and back
+  ASSERT_EQ(laterna("convert bop layers --as exr", scratch.path()).exit_code, 0);
+  const ExrLayers layers = read_exr_layers(scratch / "layers" / "camera.exr");
+  EXPECT_EQ(layer(layers, "object.id").values, id.values);
+  EXPECT_TRUE(layers.camera.window_from_world);
 }
 
 TEST(Convert, CloudsOfPointsLieOnTheSurface) {

@@ -11,7 +11,7 @@ namespace {
 using namespace laterna;
 
 std::filesystem::path colmap_folder(std::string_view bytes) {
-  std::filesystem::path folder = "/dev/shm/laterna-fuzz-colmap-" + std::to_string(::getpid());
+  const std::filesystem::path folder = fuzz::scratch() / "colmap";
   std::filesystem::create_directories(folder);
   const std::size_t middle = std::min(bytes.find('\0'), bytes.size());
   const auto put = [&](const char* name, std::string_view text) {
@@ -26,8 +26,8 @@ std::filesystem::path colmap_folder(std::string_view bytes) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t count) {
   if (count == 0) return 0;
-  constexpr std::array<const char*, 7> endings = {".yaml", ".xml",         ".json", ".gltf",
-                                                  ".usda", ".cameramodel", ".toml"};
+  constexpr std::array<const char*, 8> endings = {".yaml", ".xml",         ".json", ".gltf",
+                                                  ".usda", ".cameramodel", ".toml", ".exr"};
   const std::string_view text = fuzz::text_of(bytes + 1, count - 1);
   const std::size_t which = bytes[0] % (endings.size() + 1);
   RigReadOptions options;

@@ -2,7 +2,6 @@
 
 #include "apps/lab/atlas/cell_kinds.h"
 #include "apps/lab/cell_seed.h"
-#include "apps/lab/files_digest.h"
 #include "apps/lab/grid_settings.h"
 #include "apps/lab/json_number.h"
 #include "apps/lab/shell_word.h"
@@ -167,19 +166,6 @@ std::vector<Planned> sampled(std::vector<Planned> planned, const AtlasOptions& o
   return planned;
 }
 
-std::vector<FileDigest> digests_of(const std::vector<Planned>& planned,
-                                   const std::filesystem::path& specification) {
-  const std::filesystem::path folder = specification.parent_path();
-  std::vector<std::filesystem::path> files{specification};
-  for (const Planned& p : planned) {
-    const CellKind& kind = cell_kind(p.cell.kind, specification.string());
-    if (!kind.files) continue;
-    const auto read = kind.files(p.cell.values, specification.string(), folder);
-    files.insert(files.end(), read.begin(), read.end());
-  }
-  return file_digests(files, folder);
-}
-
 std::string fingerprint(const AtlasOptions& options) {
   return fmt::format("atlas, seed {} long {} methods {} cell {} sample {}", options.seed, options.long_run,
                      fmt::join(options.methods, ","), options.cell, options.sample);
@@ -195,6 +181,8 @@ Atlas run_atlas(const std::filesystem::path& specification, const std::filesyste
     plan_grid(grid, specification.parent_path(), options, planned);
   planned = sampled(std::move(planned), options);
   if (planned.empty()) throw InputError(specification.string() + ": no cell matches what is asked for");
+  std::vector<CellValues> cells;
+  for (const Planned& p : planned) cells.push_back({p.cell.kind, p.cell.values, specification.string()});
   std::vector<Job> jobs;
   for (const Planned& p : planned)
     jobs.push_back({p.cell.method + ": " + p.cell.name,
@@ -202,7 +190,7 @@ Atlas run_atlas(const std::filesystem::path& specification, const std::filesyste
   const RunOutcome run = run_jobs(jobs,
                                   {.folder = folder,
                                    .fingerprint = fingerprint(options),
-                                   .files = digests_of(planned, specification),
+                                   .files = digests_of(cells, specification),
                                    .resume = options.resume,
                                    .noun = "cells"},
                                   progress);

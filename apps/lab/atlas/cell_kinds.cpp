@@ -23,4 +23,17 @@ const CellKind& cell_kind(const std::string& name, const std::string& place) {
   throw InputError(fmt::format("{}: the kind is \"{}\", expected points, boards or pictures", place, name));
 }
 
+std::vector<FileDigest> digests_of(const std::vector<CellValues>& cells,
+                                   const std::filesystem::path& specification) {
+  const std::filesystem::path folder = specification.parent_path();
+  std::vector<std::filesystem::path> files{specification};
+  for (const CellValues& cell : cells) {
+    const CellKind& kind = cell_kind(cell.kind, cell.place);
+    if (!kind.files) continue;
+    const auto read = kind.files(cell.values, cell.place, folder);
+    files.insert(files.end(), read.begin(), read.end());
+  }
+  return file_digests(files, folder);
+}
+
 }  // namespace laterna

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "apps/lab/atlas/outcome.h"
+#include "apps/lab/files_digest.h"
 #include "apps/lab/simulation.h"
 
 #include <nlohmann/json.hpp>
@@ -65,5 +66,16 @@ CellKind picture_cells();
 
 /// By name. Throws InputError, beginning with `place`, for another one.
 const CellKind& cell_kind(const std::string& name, const std::string& place);
+
+/// One cell of a specification, as far as it tells the files that the cell reads.
+struct CellValues {
+  std::string kind;
+  nlohmann::json values;
+  std::string place;  ///< for messages
+};
+
+/// file_digests() of the specification and all the files that its cells read. Throws as `prepare` does.
+std::vector<FileDigest> digests_of(const std::vector<CellValues>& cells,
+                                   const std::filesystem::path& specification);
 
 }  // namespace laterna

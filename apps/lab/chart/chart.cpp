@@ -2,7 +2,6 @@
 
 #include "apps/lab/atlas/cell_kinds.h"
 #include "apps/lab/cell_seed.h"
-#include "apps/lab/files_digest.h"
 #include "apps/lab/grid_settings.h"
 #include "apps/lab/json_number.h"
 #include "apps/lab/peak_memory.h"
@@ -242,38 +241,21 @@ std::vector<std::size_t> pareto_front(const std::vector<ChartPoint>& points) {
   return front;
 }
 
-namespace {
-
-std::vector<FileDigest> digests_of(const std::vector<Grid>& grids,
-                                   const std::filesystem::path& specification) {
-  const std::filesystem::path folder = specification.parent_path();
-  std::vector<std::filesystem::path> files{specification};
-  for (const Grid& grid : grids) {
-    const CellKind& kind = cell_kind(grid.kind, grid.place);
-    if (!kind.files) continue;
-    for (const GridCell& cell : cells_of(grid)) {
-      const auto read = kind.files(cell.values, grid.place, folder);
-      files.insert(files.end(), read.begin(), read.end());
-    }
-  }
-  return file_digests(files, folder);
-}
-
-}  // namespace
-
 Chart run_chart(const std::filesystem::path& specification, const std::filesystem::path& folder,
                 const ChartOptions& options, const Progress& progress) {
   const std::string text = read_text(specification, std::size_t(16) << 20);
   const std::vector<Grid> grids = parse_grids(text, specification.string(), settings);
   Chart chart{specification.stem().string(), against_of(grids), false, {}, false, 0, 0};
   std::vector<Planned> planned;
+  std::vector<CellValues> cells;
   for (const Grid& grid : grids) {
     const CellKind& kind = cell_kind(grid.kind, grid.place);
-    for (const GridCell& cell : cells_of(grid))
+    for (const GridCell& cell : cells_of(grid)) {
+      cells.push_back({grid.kind, cell.values, grid.place});
       plan_cell(grid, cell, kind.prepare(cell.values, grid.place, specification.parent_path()), options,
                 planned);
+    }
   }
-  const std::vector<FileDigest> files = digests_of(grids, specification);
   planned = chosen(std::move(planned), options, specification.string());
   std::vector<Job> jobs;
   for (const Planned& p : planned)
@@ -283,7 +265,7 @@ Chart run_chart(const std::filesystem::path& specification, const std::filesyste
                {.folder = folder,
                 .fingerprint = fmt::format("chart, seed {} repeats {} points {}", options.seed,
                                            options.repeats, fmt::join(options.points, "|")),
-                .files = files,
+                .files = digests_of(cells, specification),
                 .resume = options.resume,
                 .parallel = false,
                 .noun = "points"},
