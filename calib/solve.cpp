@@ -3,6 +3,7 @@
 #include "calib/camera_uncertainty.h"
 #include "calib/candidates.h"
 #include "calib/covariance.h"
+#include "calib/critical_points.h"
 #include "calib/lens_left_out.h"
 #include "calib/placement.h"
 #include "calib/residual_structure.h"
@@ -113,6 +114,17 @@ BestRefinement best_spline(const Correspondences& c, PointTable& points,
                            {options.loss, options.max_iterations, double(std::max(size.x, size.y))});
   if (!best.refinement) best.refusal = "some points lie behind the projector that fits the others";
   return best;
+}
+
+// What the points of a solution that is not unique lie on, before the rest of the sentence.
+std::string critical_words(std::span<const glm::dvec3> world_points, const GeometryReport& geometry) {
+  if (geometry.spread_m.z < 3e-3 * geometry.spread_m.x) return "the points are too flat: ";
+  const std::string words = critical_in_words(critical_set(world_points));
+  return words.empty() ? words : words + ": ";
+}
+
+std::string relief_words(const SolveResult& result) {
+  return fmt::format(" (relief {:.2g} % of the throw)", 100 * result.relief_over_throw);
 }
 
 // Picks the covariance that the verdict uses, and what it predicts over the estimate's own volume. False
@@ -264,12 +276,9 @@ SolveResult solve(const Correspondences& c, glm::ivec2 size, const SolveOptions&
   result.smallest_gap = spectrum.singular_values.back() / spectrum.singular_values.front();
   result.weakest_direction = direction_in_words(spectrum.weakest, result.parameter_names);
   if (!fit.converged) {
-    const bool flat = result.relief_over_throw < 1e-3;
-    return refused(result,
-                   fmt::format("{} in {} iterations: {} (relief {:.2g} % of the throw)",
-                               flat ? "the points are too flat: the solver did not converge"
-                                    : "the solver did not converge",
-                               fit.iterations, result.weakest_direction, 100 * result.relief_over_throw));
+    return refused(result, fmt::format("{}the solver did not converge in {} iterations: {}{}",
+                                       critical_words(c.world_points, geometry), fit.iterations,
+                                       result.weakest_direction, relief_words(result)));
   }
   const auto independent =
       result.smallest_gap > rank_deficient
@@ -277,9 +286,9 @@ SolveResult solve(const Correspondences& c, glm::ivec2 size, const SolveOptions&
                              fit.factor)
           : std::nullopt;
   if (!independent) {
-    return refused(result,
-                   fmt::format("the points do not determine the projector: {} (relief {:.2g} % of the throw)",
-                               result.weakest_direction, 100 * result.relief_over_throw));
+    return refused(result, fmt::format("{}the points do not determine the projector: {}{}",
+                                       critical_words(c.world_points, geometry), result.weakest_direction,
+                                       relief_words(result)));
   }
   const Rigid& pose = result.estimate.device_from_world;
   result.covariance_independent = world_covariance(*independent, pose, normalisation);
@@ -299,6 +308,8 @@ SolveResult solve(const Correspondences& c, glm::ivec2 size, const SolveOptions&
                                    structure_weakness(result, points, lens, fit.state, options.tolerance_px)})
     if (!words.empty()) weak.push_back(words);
   if (!best.ambiguity.empty()) weak.push_back(best.ambiguity);
+  if (const std::string set = critical_in_words(critical_set(c.world_points)); !weak.empty() && !set.empty())
+    weak.push_back(set);
   result.status = weak.empty() ? Status::ok : Status::weak;
   result.reason = fmt::format("{}", fmt::join(weak, "; "));
   return result;

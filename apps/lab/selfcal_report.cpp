@@ -1,12 +1,14 @@
 #include "apps/lab/selfcal_report.h"
 
 #include "apps/lab/trial_report.h"
+#include "calib/boards/rig.h"
 #include "calib/correspondences.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include <array>
 #include <cmath>
 
 namespace laterna {
@@ -19,21 +21,73 @@ constexpr std::size_t most_points = 2000;
 
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
+// fx, fy, cx, cy, k1, ...
+std::string parameter_key(const SelfCalibration& c, std::size_t d, std::size_t i) {
+  constexpr std::array<const char*, 4> keys = {"fx", "fy", "cx", "cy"};
+  return i < keys.size() ? keys[i]
+                         : lens_parameter_name(c.tracks.devices[d].lens.model, int(i - keys.size()));
+}
+
+Json ladder_json(const TrackLadder& ladder) {
+  Json rungs = Json::array();
+  for (const TrackRung& rung : ladder.rungs) {
+    Json folds = Json::array();
+    for (const HeldOutPose& fold : rung.held_out.folds) folds.push_back(number(fold.rms_px));
+    rungs.push_back({{"added", rung.added},
+                     {"terms", rung.terms},
+                     {"solved", rung.solved},
+                     {"chosen", rung.chosen},
+                     {"fit_rms_px", number(rung.fit_rms_px)},
+                     {"held_out_px", {{"rms", number(rung.held_out.rms_px)}, {"folds", folds}}},
+                     {"gain_over_error", number(rung.gain_over_error)}});
+  }
+  return rungs;
+}
+
+std::string ladder_text(const TrackLadder& ladder) {
+  if (ladder.rungs.empty()) return "";
+  std::string text =
+      fmt::format("  {:<24} {:>9} {:>12} {:>12}\n", "lens", "fit px", "held out px", "gain/error");
+  for (const TrackRung& rung : ladder.rungs)
+    text += fmt::format("{} {:<24} {:>9.4f} {:>12.4f} {:>12}\n", rung.chosen ? "*" : " ",
+                        rung.added.empty() ? "as given" : "+ " + rung.added, rung.fit_rms_px,
+                        rung.held_out.rms_px,
+                        !rung.solved         ? "not solved"
+                        : rung.added.empty() ? ""
+                                             : fmt::format("{:.1f}", rung.gain_over_error));
+  return text;
+}
+
+// " fx 1700.02 ± 0.3 fy ..."; terms that are held at 0 are passed over.
+std::string parameters_text(const SelfCalibration& c, std::size_t d) {
+  const Intrinsics& k = c.rig.devices[d];
+  std::vector<double> values{k.fx, k.fy, k.cx, k.cy};
+  values.insert(values.end(), c.rig.lenses[d].begin(), c.rig.lenses[d].end());
+  const auto at = columns_of(c.tracks).intrinsics[d];
+  std::string text;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (i >= 4 && at[i] < 0 && values[i] == 0) continue;
+    text += fmt::format(" {} {}{}", parameter_key(c, d, i),
+                        i < 4 ? fmt::format("{:.2f}", values[i]) : fmt::format("{:.5f}", values[i]),
+                        at[i] < 0 ? " (held)" : fmt::format(" ± {:.2g}", c.sigma[at[i]]));
+  }
+  return text;
+}
+
 Json device_json(const SelfCalibration& c, std::size_t d) {
   const Intrinsics& k = c.rig.devices[d];
   const std::string& name = c.tracks.devices[d].name;
   Json sigma = Json::object();
   const auto at = columns_of(c.tracks).intrinsics[d];
-  const char* keys[] = {"fx", "fy", "cx", "cy"};
-  for (int i = 0; i < 4; ++i)
-    if (at[i] >= 0) sigma[keys[i]] = number(c.sigma[at[i]]);
+  for (std::size_t i = 0; i < at.size(); ++i)
+    if (at[i] >= 0) sigma[parameter_key(c, d, i)] = number(c.sigma[at[i]]);
   return {{"name", name},
           {"size", {k.size.x, k.size.y}},
           {"fx", k.fx},
           {"fy", k.fy},
           {"cx", k.cx},
           {"cy", k.cy},
-          {"lens", {{"model", "LENSMODEL_PINHOLE"}, {"parameters", Json::array()}}},
+          {"lens", {{"model", c.tracks.devices[d].lens.model}, {"parameters", c.rig.lenses[d]}}},
           {"sigma", sigma}};
 }
 
@@ -101,6 +155,8 @@ Json selfcal_json(const SelfCalibration& c) {
   json["fit_rms_px"] = number(c.fit_rms_px);
   json["residual_scale"] = number(c.residual_scale);
   json["focal_sigma"] = number(c.focal_sigma);
+  json["lens_sigma"] = number(c.lens_sigma);
+  json["ladder"] = ladder_json(c.ladder);
   for (std::size_t d = 0; d < c.rig.devices.size(); ++d) json["devices"].push_back(device_json(c, d));
   for (std::size_t s = 0; s < c.stations.size(); ++s) json["stations"].push_back(station_json(c, s));
   json["points"] = points_json(c);
@@ -118,17 +174,9 @@ std::string selfcal_text(const SelfCalibration& c) {
   for (const std::string& words : c.merged) text += words + "\n";
   if (!c.dropped.empty()) text += fmt::format("dropped as outliers: {} sightings\n", c.dropped.size());
   if (c.status != Status::refused) {
-    for (std::size_t d = 0; d < c.rig.devices.size(); ++d) {
-      const Intrinsics& k = c.rig.devices[d];
-      const auto at = columns_of(c.tracks).intrinsics[d];
-      text += c.tracks.devices[d].name + ":";
-      const double values[] = {k.fx, k.fy, k.cx, k.cy};
-      const char* names[] = {"fx", "fy", "cx", "cy"};
-      for (int i = 0; i < 4; ++i)
-        text += fmt::format(" {} {:.2f}{}", names[i], values[i],
-                            at[i] < 0 ? " (held)" : fmt::format(" ± {:.2g}", c.sigma[at[i]]));
-      text += "\n";
-    }
+    text += ladder_text(c.ladder);
+    for (std::size_t d = 0; d < c.rig.devices.size(); ++d)
+      text += c.tracks.devices[d].name + ":" + parameters_text(c, d) + "\n";
     for (std::size_t s = 0; s < c.stations.size(); ++s)
       text += fmt::format("  {:<24} {:>7} sightings, fit {:.4f} px rms, predicted to {:.3f} px\n",
                           c.tracks.station_name(int(s)), c.stations[s].sightings, c.stations[s].rms_px,

@@ -29,25 +29,6 @@ bool has(const std::vector<std::string>& terms, const char* term) {
   return std::find(terms.begin(), terms.end(), term) != terms.end();
 }
 
-// The terms that may come next, given those that stand.
-std::vector<std::string> next_terms(const std::vector<std::string>& terms) {
-  if (!has(terms, "k1")) return {"k1"};
-  std::vector<std::string> next;
-  if (!has(terms, "k2")) next.emplace_back("k2");
-  if (!has(terms, "p1p2")) next.emplace_back("p1p2");
-  if (has(terms, "k2") && !has(terms, "k3")) next.emplace_back("k3");
-  if (has(terms, "k3") && !has(terms, "k456")) next.emplace_back("k456");
-  return next;
-}
-
-// In the order in which OpenCV's models have them.
-std::vector<std::string> with_term(const std::vector<std::string>& terms, const std::string& term) {
-  std::vector<std::string> all;
-  for (const std::string& t : lens_terms("opencv12"))
-    if (t == term || has(terms, t.c_str())) all.push_back(t);
-  return all;
-}
-
 std::vector<Candidate> candidates_after(const Candidate& current, const BoardCapture& capture,
                                         const LadderOptions& options) {
   const Terms& terms = current.terms;
@@ -59,9 +40,9 @@ std::vector<Candidate> candidates_after(const Candidate& current, const BoardCap
     candidates.push_back({Terms(terms.size(), {"k1"}), current.bend, "k1 of every device"});
   for (std::size_t d = 0; d < terms.size(); ++d) {
     if (capture.devices[d].known) continue;
-    for (const std::string& term : next_terms(terms[d])) {
+    for (const std::string& term : next_lens_terms(terms[d])) {
       Candidate c{terms, current.bend, capture.devices[d].name + " " + term};
-      c.terms[d] = with_term(terms[d], term);
+      c.terms[d] = with_lens_term(terms[d], term);
       candidates.push_back(std::move(c));
     }
   }
@@ -89,14 +70,6 @@ double scatter(const HeldOut& held_out) {
   for (const HeldOutPose& fold : held_out.folds) mean += fold.rms_px / n;
   for (const HeldOutPose& fold : held_out.folds) sum += (fold.rms_px - mean) * (fold.rms_px - mean);
   return std::sqrt(sum / (n - 1));
-}
-
-// Over the folds: one that extrapolates far does not drown the others.
-double geometric_mean_px(const HeldOut& held_out) {
-  double sum = 0, count = 0;
-  for (const HeldOutPose& fold : held_out.folds)
-    if (fold.rms_px > 0) sum += std::log(fold.rms_px), ++count;
-  return count > 0 ? std::exp(sum / count) : 0;
 }
 
 // The focal length, principal point or distance that changed most, in shares of the focal length.
@@ -137,8 +110,7 @@ void compare(Candidate& c, const Candidate& current, const BoardCapture& capture
 }
 
 bool passes(const Candidate& c, const Candidate& current, const LadderOptions& options) {
-  return c.rung.solved && c.rung.gain_over_error > options.least_gain_over_error &&
-         c.rung.typical_px < (1 - options.least_gain) * current.rung.typical_px;
+  return c.rung.solved && forecasts_better(current.rung.held_out, c.rung.held_out, options);
 }
 
 // A start for many terms: the fit with those of OpenCV's first four, then with k3 too. From a pinhole a
@@ -183,6 +155,35 @@ Candidate first_rung(const BoardCapture& capture, const BoardRig& start, bool es
 }
 
 }  // namespace
+
+std::vector<std::string> next_lens_terms(const std::vector<std::string>& terms) {
+  if (!has(terms, "k1")) return {"k1"};
+  std::vector<std::string> next;
+  if (!has(terms, "k2")) next.emplace_back("k2");
+  if (!has(terms, "p1p2")) next.emplace_back("p1p2");
+  if (has(terms, "k2") && !has(terms, "k3")) next.emplace_back("k3");
+  if (has(terms, "k3") && !has(terms, "k456")) next.emplace_back("k456");
+  return next;
+}
+
+std::vector<std::string> with_lens_term(const std::vector<std::string>& terms, const std::string& term) {
+  std::vector<std::string> all;
+  for (const std::string& t : lens_terms("opencv12"))
+    if (t == term || has(terms, t.c_str())) all.push_back(t);
+  return all;
+}
+
+double geometric_mean_px(const HeldOut& held_out) {
+  double sum = 0, count = 0;
+  for (const HeldOutPose& fold : held_out.folds)
+    if (fold.rms_px > 0) sum += std::log(fold.rms_px), ++count;
+  return count > 0 ? std::exp(sum / count) : 0;
+}
+
+bool forecasts_better(const HeldOut& before, const HeldOut& after, const LadderOptions& options) {
+  return paired_gain_over_error(before, after) > options.least_gain_over_error &&
+         geometric_mean_px(after) < (1 - options.least_gain) * geometric_mean_px(before);
+}
 
 double paired_gain_over_error(const HeldOut& before, const HeldOut& after) {
   std::vector<double> gains;

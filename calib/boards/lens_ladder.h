@@ -43,14 +43,26 @@ struct LadderOptions {
 /// than two.
 double paired_gain_over_error(const HeldOut& before, const HeldOut& after);
 
-/// Climbs from pinhole with free centre. Each step tries every term that may come next on each device (k1;
-/// then k2 and p1p2; k3 after k2; k456 after k3), the board's bend and, first of all, k1 on all devices at
-/// once. Every candidate is fitted (fit_rig) and leaves each pose out in turn. It passes where every fold
-/// solves, the paired gain over the folds is above `least_gain_over_error` standard errors, and the geometric
-/// mean of the folds' rms falls by `least_gain`. Of those that pass, the one with the smallest geometric mean
-/// is the next rung; with none the climb ends. (A mean of logarithms, since one fold that extrapolates far
-/// would drown the others in a mean of squares.) The held-out rms of the winner is the least of several and
-/// so a little too good.
+/// The distortion terms that may come next, given those that stand: k1; then k2 and p1p2; k3 after k2; k456
+/// after k3.
+std::vector<std::string> next_lens_terms(const std::vector<std::string>& terms);
+
+/// With one more, in the order in which OpenCV's models have them.
+std::vector<std::string> with_lens_term(const std::vector<std::string>& terms, const std::string& term);
+
+/// Of the folds' rms: one that extrapolates far does not drown the others. 0 without folds.
+double geometric_mean_px(const HeldOut& held_out);
+
+/// The rule of the climb: the paired gain over the folds is above `least_gain_over_error` standard errors,
+/// and the geometric mean of the folds' rms falls by `least_gain`.
+bool forecasts_better(const HeldOut& before, const HeldOut& after, const LadderOptions& options = {});
+
+/// Climbs from pinhole with free centre. Each step tries every term that may come next on each device, the
+/// board's bend and, first of all, k1 on all devices at once. Every candidate is fitted (fit_rig) and leaves
+/// each pose out in turn. It passes where every fold solves and it forecasts better. Of those that pass, the
+/// one with the smallest geometric mean is the next rung; with none the climb ends. (A mean of logarithms,
+/// since one fold that extrapolates far would drown the others in a mean of squares.) The held-out rms of the
+/// winner is the least of several and so a little too good.
 ///
 /// Fewer than three poses leave nothing to test: the first rung is the last. Throws Refusal where pinhole
 /// itself cannot be fitted.

@@ -1,72 +1,65 @@
 #include "calib/selfcal/adjust_tracks.h"
 
+#include "calib/selfcal/sighting_cost.h"
+
 #include <ceres/ceres.h>
 #include <ceres/rotation.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace laterna {
 
 namespace {
 
-// All parameters in one piece: Ceres orders blocks by address, and the order must not change. Pixels are
-// counted in thousands so that all are near 1.
-constexpr double pixel_scale = 1000;
-
+// All parameters in one piece: Ceres orders blocks by address, and the order must not change.
 struct Blocks {
   std::vector<double> values;
-  int devices, stations;
-  double* device(int d) { return values.data() + 4 * d; }
-  double* station(int s) { return values.data() + 4 * devices + 6 * s; }
-  double* point(int p) { return values.data() + 4 * devices + 6 * stations + 3 * p; }
+  std::vector<std::size_t> device_begin;
+  std::size_t station_begin = 0, point_begin = 0;
+  double* device(int d) { return values.data() + device_begin[std::size_t(d)]; }
+  double* station(int s) { return values.data() + station_begin + 6 * std::size_t(s); }
+  double* point(int p) { return values.data() + point_begin + 3 * std::size_t(p); }
 };
 
 Blocks blocks_of(const TrackRig& rig) {
-  Blocks b{{}, int(rig.devices.size()), int(rig.station_from_first.size())};
-  for (const Intrinsics& k : rig.devices)
-    for (const double v : {k.fx, k.fy, k.cx, k.cy}) b.values.push_back(v / pixel_scale);
+  Blocks b;
+  auto& values = b.values;
+  for (std::size_t d = 0; d < rig.devices.size(); ++d) {
+    const Intrinsics& k = rig.devices[d];
+    b.device_begin.push_back(values.size());
+    for (const double v : {k.fx, k.fy, k.cx, k.cy}) values.push_back(v / track_pixel_scale);
+    values.insert(values.end(), rig.lenses[d].begin(), rig.lenses[d].end());
+  }
+  b.station_begin = values.size();
   for (const Rigid& place : rig.station_from_first) {
     const glm::dvec3 w = rotation_vector_rad(place.rotation);
     const glm::dvec3& t = place.translation;
-    b.values.insert(b.values.end(), {w.x, w.y, w.z, t.x, t.y, t.z});
+    values.insert(values.end(), {w.x, w.y, w.z, t.x, t.y, t.z});
   }
-  for (const glm::dvec3& x : rig.points) b.values.insert(b.values.end(), {x.x, x.y, x.z});
+  b.point_begin = values.size();
+  for (const glm::dvec3& x : rig.points) values.insert(values.end(), {x.x, x.y, x.z});
   return b;
 }
 
+bool one_focal(const TrackDevice& d) { return d.focal && !d.aspect; }
+
 TrackRig rig_of(Blocks& b, TrackRig rig, const Tracks& tracks) {
-  for (int d = 0; d < b.devices; ++d) {
-    const double* k = b.device(d);
-    const int fy = tracks.devices[d].focal && !tracks.devices[d].aspect ? 0 : 1;
-    rig.devices[d] = {rig.devices[d].size, k[0] * pixel_scale, k[fy] * pixel_scale, k[2] * pixel_scale,
-                      k[3] * pixel_scale};
+  for (std::size_t d = 0; d < rig.devices.size(); ++d) {
+    const double* k = b.device(int(d));
+    const int fy = one_focal(tracks.devices[d]) ? 0 : 1;
+    rig.devices[d] = {rig.devices[d].size, k[0] * track_pixel_scale, k[fy] * track_pixel_scale,
+                      k[2] * track_pixel_scale, k[3] * track_pixel_scale};
+    std::copy_n(k + 4, rig.lenses[d].size(), rig.lenses[d].begin());
   }
-  for (int s = 1; s < b.stations; ++s) {
-    const double* p = b.station(s);
+  for (std::size_t s = 1; s < rig.station_from_first.size(); ++s) {
+    const double* p = b.station(int(s));
     rig.station_from_first[s] = rigid_from_rotation_vector({p[0], p[1], p[2]}, {p[3], p[4], p[5]});
   }
   for (std::size_t i = 0; i < rig.points.size(); ++i)
     for (int axis = 0; axis < 3; ++axis) rig.points[i][axis] = b.point(int(i))[axis];
   return rig;
 }
-
-// One sighting: intrinsics (4), place (rotation vector, translation), point.
-struct SightingResidual {
-  glm::dvec2 pixel;
-  double inverse_sigma;
-  bool one_focal;
-
-  template <class T>
-  bool operator()(const T* k, const T* place, const T* point, T* residual) const {
-    T x[3];
-    ceres::AngleAxisRotatePoint(place, point, x);
-    for (int i = 0; i < 3; ++i) x[i] += place[3 + i];
-    if (!(x[2] > T(0))) return false;
-    residual[0] = ((k[0] * x[0] / x[2] + k[2]) * pixel_scale - pixel.x) * inverse_sigma;
-    residual[1] = ((k[one_focal ? 0 : 1] * x[1] / x[2] + k[3]) * pixel_scale - pixel.y) * inverse_sigma;
-    return true;
-  }
-};
 
 // Keeps two stations' centres 1 apart. Any weight does; this one makes 1e-3 of it as dear as a sigma.
 struct BaselineResidual {
@@ -93,7 +86,10 @@ void hold(ceres::Problem& problem, const TrackDevice& device, double* k) {
   if (!device.focal) held.push_back(0);
   if (!device.aspect) held.push_back(1);
   if (!device.center) held.insert(held.end(), {2, 3});
-  if (!held.empty()) problem.SetManifold(k, new ceres::SubsetManifold(4, held));
+  const int lens = int(device.lens.parameters.size());
+  for (int i = 0; i < lens; ++i)
+    if (device.lens_free.empty() || !device.lens_free[i]) held.push_back(4 + i);
+  if (!held.empty()) problem.SetManifold(k, new ceres::SubsetManifold(4 + lens, held));
 }
 
 bool takes_part(const Tracks& tracks, const TrackRig& rig, std::size_t i) {
@@ -107,17 +103,16 @@ bool takes_part(const Tracks& tracks, const TrackRig& rig, std::size_t i) {
 void build(ceres::Problem& problem, ceres::ParameterBlockOrdering& ordering, const Tracks& tracks,
            const TrackRig& rig, const std::vector<UnitBaseline>& units, const RobustLoss& loss,
            Blocks& blocks) {
-  using Cost = ceres::AutoDiffCostFunction<SightingResidual, 2, 4, 6, 3>;
+  const TrackColumns columns = columns_of(tracks);
   for (std::size_t i = 0; i < tracks.sightings.size(); ++i) {
     if (!takes_part(tracks, rig, i)) continue;
     const TrackSighting& s = tracks.sightings[i];
     const int d = tracks.stations[s.station].device;
-    const bool one_focal = tracks.devices[d].focal && !tracks.devices[d].aspect;
     ceres::LossFunction* robust = nullptr;
     if (loss.kind == RobustLoss::Kind::cauchy) robust = new ceres::CauchyLoss(loss.scale_sigmas);
     if (loss.kind == RobustLoss::Kind::huber) robust = new ceres::HuberLoss(loss.scale_sigmas);
-    problem.AddResidualBlock(new Cost(new SightingResidual{s.pixel, 1 / s.sigma_px, one_focal}), robust,
-                             blocks.device(d), blocks.station(s.station), blocks.point(s.point));
+    problem.AddResidualBlock(sighting_cost(columns.lenses[d], s, one_focal(tracks.devices[d])).release(),
+                             robust, blocks.device(d), blocks.station(s.station), blocks.point(s.point));
     ordering.AddElementToGroup(blocks.point(s.point), 0);
     ordering.AddElementToGroup(blocks.device(d), 1);
     ordering.AddElementToGroup(blocks.station(s.station), 1);
@@ -128,7 +123,8 @@ void build(ceres::Problem& problem, ceres::ParameterBlockOrdering& ordering, con
     ordering.AddElementToGroup(blocks.station(a), 1);
     ordering.AddElementToGroup(blocks.station(b), 1);
   }
-  for (int d = 0; d < blocks.devices; ++d) hold(problem, tracks.devices[d], blocks.device(d));
+  for (std::size_t d = 0; d < tracks.devices.size(); ++d)
+    hold(problem, tracks.devices[d], blocks.device(int(d)));
   if (problem.HasParameterBlock(blocks.station(0))) problem.SetParameterBlockConstant(blocks.station(0));
 }
 

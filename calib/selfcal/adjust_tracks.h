@@ -19,10 +19,10 @@ struct TrackAdjustment {
 };
 
 /// Minimises ½ Σ ρ(s) over everything free and every placed point (Schur: the points are eliminated), from
-/// dual-number derivatives, until Ceres finds convergence near rounding. Gauge: station 0 stays where it is,
-/// and each unit baseline is kept at length 1 by a residual of its own, which the pixels do not resist.
-/// Points with fewer than two sightings stand still. None where the start has a sighting behind its station,
-/// or something is not finite.
+/// analytic derivatives (sighting_cost.h), until Ceres finds convergence near rounding. Gauge: station 0
+/// stays where it is, and each unit baseline is kept at length 1 by a residual of its own, which the pixels
+/// do not resist. Points with fewer than two sightings stand still. None where the start has a sighting
+/// behind its station, or something is not finite.
 std::optional<TrackAdjustment> adjust_tracks(const Tracks& tracks, const TrackRig& start,
                                              const std::vector<UnitBaseline>& units,
                                              const RobustLoss& loss = {}, int max_iterations = 500,

@@ -117,12 +117,15 @@ std::optional<Rigid> resection(const Tracks& tracks, const TrackRig& rig, int st
 // Points seen from two or more placed stations and not placed yet.
 void triangulate_missing(const Tracks& tracks, const std::vector<char>& placed, TrackRig& rig) {
   std::vector<Ray> rays;
+  std::vector<LensProjection> lenses;
+  for (std::size_t d = 0; d < rig.devices.size(); ++d)
+    lenses.emplace_back(rig.devices[d], Lens{tracks.devices[d].lens.model, rig.lenses[d]});
   for (std::size_t i = 0; i < tracks.sightings.size(); ++i) {
     const TrackSighting& s = tracks.sightings[i];
     if (i == 0 || tracks.sightings[i - 1].point != s.point) rays.clear();
     if (placed[s.station])
-      rays.push_back(
-          {&rig.station_from_first[s.station], ray_of(of_station(tracks, rig.devices, s.station), s.pixel)});
+      if (const auto ray = lenses[tracks.stations[s.station].device].unproject(s.pixel))
+        rays.push_back({&rig.station_from_first[s.station], glm::dvec2(*ray) / ray->z});
     const bool last = i + 1 == tracks.sightings.size() || tracks.sightings[i + 1].point != s.point;
     if (!last || rays.size() < 2 || rig.has_point(s.point)) continue;
     if (const auto x = triangulate(rays)) rig.points[s.point] = *x;
@@ -268,8 +271,10 @@ std::optional<Reconstruction> reconstruct(const std::vector<SolvedPair>& pairs, 
   const auto place = relative_place(first, of_station(tracks, devices, first.pair.a),
                                     of_station(tracks, devices, first.pair.b));
   if (!place) return std::nullopt;
+  std::vector<std::vector<double>> lenses;
+  for (const TrackDevice& d : tracks.devices) lenses.push_back(d.lens.parameters);
   Reconstruction r{{devices, std::vector<Rigid>(tracks.stations.size()),
-                    std::vector<glm::dvec3>(tracks.point_names.size(), glm::dvec3(NAN))},
+                    std::vector<glm::dvec3>(tracks.point_names.size(), glm::dvec3(NAN)), lenses},
                    {{first.pair.a, first.pair.b}}};
   std::vector<char> placed(tracks.stations.size(), 0);
   r.rig.station_from_first[first.pair.b] = *place;

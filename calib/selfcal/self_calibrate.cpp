@@ -1,7 +1,7 @@
 #include "calib/selfcal/self_calibrate.h"
 
 #include "calib/selfcal/adjust_tracks.h"
-#include "calib/selfcal/turned.h"
+#include "calib/selfcal/selfcal_verdict.h"
 #include "sim/error.h"
 
 #include <fmt/format.h>
@@ -21,16 +21,10 @@ struct Solution {
   std::vector<UnitBaseline> units;
 };
 
-// About `wanted` points, evenly spread, with all their sightings.
-Tracks some_points(const Tracks& tracks, std::size_t wanted) {
-  std::vector<int> seen;  // points with sightings, in order
-  for (const TrackSighting& s : tracks.sightings)
-    if (seen.empty() || seen.back() != s.point) seen.push_back(s.point);
-  std::vector<char> keep(tracks.point_names.size(), 0);
-  for (const std::size_t i : evenly_spread(seen.size(), wanted)) keep[seen[i]] = 1;
-  Tracks some = tracks;
-  std::erase_if(some.sightings, [&](const TrackSighting& s) { return !keep[s.point]; });
-  return some;
+int lens_free_count(const Tracks& tracks) {
+  int count = 0;
+  for (const TrackDevice& d : tracks.devices) count += d.lens_free_count();
+  return count;
 }
 
 // The loss with what is not placed counted as outliers, so that solutions compare.
@@ -108,10 +102,67 @@ double variance_of(const Tracks& tracks, const TrackRig& rig, const std::vector<
   return sum / std::max(1.0, freedom(tracks, units));
 }
 
+// The devices' lenses in place of pinholes: known ones as they are; terms that are free, or climb in,
+// adjusted for each solution, best first; the climb goes from the best.
+void add_lenses(SelfCalibration& c, std::vector<Solution>& all, const std::vector<TrackDevice>& devices) {
+  put_lenses_back(devices, c.tracks);
+  for (DroppedSighting& d : c.dropped)
+    if (std::isfinite(d.residual_sigmas))  // else the pixel is as it was given
+      put_lens_back(devices[c.tracks.stations[d.sighting.station].device], d.sighting.pixel);
+  const auto adjust = [&](Solution& s) {
+    for (std::size_t d = 0; d < devices.size(); ++d) {
+      auto& lens = s.adjustment.rig.lenses[d];
+      if (lens.empty()) lens = devices[d].lens.parameters;
+      lens.resize(c.tracks.devices[d].lens.parameters.size(), 0.0);
+    }
+    if (lens_free_count(c.tracks) == 0) return true;
+    auto better = solve_from(c.tracks, {s.adjustment.rig, s.units}, c.count.unlinked, 200, 1e-10);
+    if (better) s = std::move(*better);
+    return better.has_value();
+  };
+  const auto adjust_all = [&] {
+    std::erase_if(all, [&](Solution& s) { return !adjust(s); });
+    std::stable_sort(all.begin(), all.end(), [&](const auto& a, const auto& b) {
+      return full_loss(c.tracks, a.adjustment) < full_loss(c.tracks, b.adjustment);
+    });
+  };
+  adjust_all();
+  if (all.empty()) return;
+  c.ladder = climb_lenses(c.tracks, all.front().adjustment.rig, all.front().units, cauchy);
+  if (c.ladder.winner > 0) adjust_all();
+}
+
+// Sightings that pinholes had no room for, and lenses have, come back; others stay dropped.
+void readmit(SelfCalibration& c, const TrackRig& rig) {
+  if (lens_free_count(c.tracks) == 0) return;
+  Tracks with = c.tracks;
+  for (const DroppedSighting& d : c.dropped)
+    if (std::isfinite(d.residual_sigmas)) with.sightings.push_back(d.sighting);
+  const auto key = [](const TrackSighting& s) { return std::pair(s.point, s.station); };
+  std::stable_sort(with.sightings.begin(), with.sightings.end(),
+                   [&](const auto& a, const auto& b) { return key(a) < key(b); });
+  TrackRig placed = rig;
+  place_missing_points(with, placed);
+  const std::vector<double> r = scaled_residuals(with, placed);
+  std::vector<double> sorted = scaled_residuals(c.tracks, placed);
+  const auto middle = sorted.begin() + std::ptrdiff_t(sorted.size() / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  const double limit = 4 * std::max(1.0, *middle / 0.48);  // as in refine()
+  for (std::size_t i = 0; i < r.size(); ++i) {
+    const auto was = std::find_if(c.dropped.begin(), c.dropped.end(), [&](const DroppedSighting& d) {
+      return key(d.sighting) == key(with.sightings[i]);
+    });
+    if (was == c.dropped.end() || r[i] > limit) continue;
+    c.tracks.sightings.push_back(with.sightings[i]);
+    c.dropped.erase(was);
+  }
+  std::stable_sort(c.tracks.sightings.begin(), c.tracks.sightings.end(),
+                   [&](const auto& a, const auto& b) { return key(a) < key(b); });
+}
+
 // Drops misfits until there are none, with least squares on the rest. None where it fails, else whether it
 // converged.
-std::optional<bool> refine(SelfCalibration& c, const Solution& solution) {
-  TrackRig rig = solution.adjustment.rig;
+std::optional<bool> refine(SelfCalibration& c, TrackRig rig) {
   place_missing_points(c.tracks, rig);
   for (int round = 0; round < 8; ++round) {
     std::vector<double> r = scaled_residuals(c.tracks, rig);
@@ -137,8 +188,9 @@ double largest_focal_sigma(const SelfCalibration& c) {
   const TrackColumns columns = columns_of(c.tracks);
   double largest = 0;
   for (std::size_t d = 0; d < columns.intrinsics.size(); ++d)
-    for (const int at : columns.intrinsics[d])
-      if (at >= 0) largest = std::max(largest, c.sigma[at] / std::abs(c.rig.devices[d].fx));
+    for (int i = 0; i < 4; ++i)
+      if (const int at = columns.intrinsics[d][i]; at >= 0)
+        largest = std::max(largest, c.sigma[at] / std::abs(c.rig.devices[d].fx));
   return largest;
 }
 
@@ -147,6 +199,7 @@ void describe(SelfCalibration& c, const SelfCalibrationOptions& options) {
   c.residual_scale = std::sqrt(variance);
   const double used = std::max(1.0, variance);
   TrackCovariance covariance = track_covariance(c.tracks, c.rig, c.units, used);
+  c.sigma.clear();
   c.smallest_gap = covariance.smallest_gap;
   c.weakest_sigma = covariance.weakest_sigma, c.weakest_direction = covariance.weakest_direction;
   c.parameter_names = column_names(c.tracks);
@@ -168,84 +221,17 @@ void describe(SelfCalibration& c, const SelfCalibrationOptions& options) {
   }
   c.focal_sigma = INFINITY;
   if (c.covariance.empty()) return;
+  c.lens_left_out = track_lens_left_out(c.tracks, c.rig, c.units, used);
   if (options.length) c.metric = scale_to(*options.length, c.tracks, used, c.rig, c.covariance);
   const std::size_t n = c.parameter_names.size();
   for (std::size_t i = 0; i < n; ++i) c.sigma.push_back(std::sqrt(c.covariance[i * n + i]));
   c.focal_sigma = largest_focal_sigma(c);
-}
-
-std::string homography_reason(const Tracks& tracks, const SolvedPair& p) {
-  const TrackDevice &a = tracks.devices[tracks.stations[p.pair.a].device],
-                    &b = tracks.devices[tracks.stations[p.pair.b].device];
-  const std::string where = fmt::format("the {} points that {} and {} share", p.pair.size(),
-                                        tracks.station_name(p.pair.a), tracks.station_name(p.pair.b));
-  const auto turned = turned_scale(p.pair, a, b, p.geometry.homography);
-  // A turn fits as well as any homography, but for its fewer parameters: within a factor of 1.5.
-  if (!turned)
-    return fmt::format(
-        "a homography explains {}: the scene is a plane, or the devices stand in one place; "
-        "neither tells the intrinsics",
-        where);
-  if (*turned < 1.5 * std::max(1.0, p.geometry.homography_scale))
-    return fmt::format(
-        "no baseline: a turn alone explains {}, so that nothing tells of depth; move the devices "
-        "apart",
-        where);
-  return fmt::format(
-      "the scene is a plane: a homography explains {} ({:.2f} sigma rms, {:.2f} for any scene); "
-      "show a scene with relief",
-      where, p.geometry.homography_scale, p.geometry.epipolar_scale);
-}
-
-// Both focal lengths of one pair with axes that meet, or nearly; none where that is not it.
-std::optional<std::string> meeting_axes(const Tracks& tracks, const std::vector<SolvedPair>& pairs) {
-  if (pairs.size() != 1) return std::nullopt;
-  const SolvedPair& p = pairs.front();
-  const TrackDevice &a = tracks.devices[tracks.stations[p.pair.a].device],
-                    &b = tracks.devices[tracks.stations[p.pair.b].device];
-  const glm::dvec2 ca(a.intrinsics.cx, a.intrinsics.cy), cb(b.intrinsics.cx, b.intrinsics.cy);
-  const double miss = axes_miss_px(p.geometry.fundamental, ca, cb);
-  if (!a.focal || !b.focal || a.center || b.center || miss > 0.03 * b.intrinsics.size.x) return std::nullopt;
-  return fmt::format(
-      "both focal lengths are not determined where the optical axes meet: those of {} and {} miss "
-      "each other by {:.2g} px only; know one focal length, or turn one device aside",
-      a.name, b.name, miss);
+  c.lens_sigma = largest_lens_sigma(c.tracks, c.rig, c.sigma);
 }
 
 void refuse(SelfCalibration& c, std::string reason) {
   c.status = Status::refused;
   c.reason = std::move(reason);
-}
-
-// What leaves a solution that cannot be believed; empty where nothing does.
-std::string refusal(const SelfCalibration& c, const std::vector<SolvedPair>& pairs,
-                    const SelfCalibrationOptions& options) {
-  if (c.focal_sigma <= options.refused_focal) return {};
-  if (const auto reason = meeting_axes(c.tracks, pairs)) return *reason;
-  return fmt::format(
-      "the points and placements do not determine what is asked for: {} (sigma {:.2g} in natural "
-      "units, gap {:.1g}); add placements in other directions, or points at other depths",
-      c.weakest_direction, c.weakest_sigma, c.smallest_gap);
-}
-
-std::string weakness(const SelfCalibration& c, const SelfCalibrationOptions& options, std::size_t sightings) {
-  std::vector<std::string> reasons;
-  if (c.focal_sigma > options.weak_focal)
-    reasons.push_back(fmt::format("intrinsics are known to {:.1f} % of f only: {}", 100 * c.focal_sigma,
-                                  c.weakest_direction));
-  for (std::size_t s = 0; s < c.stations.size(); ++s)
-    if (!(c.stations[s].predicted_px <= options.tolerance_px))
-      reasons.push_back(fmt::format("pixels of {} are predicted to {:.2g} px only",
-                                    c.tracks.station_name(int(s)), c.stations[s].predicted_px));
-  if (c.tracks.has_sigma && c.residual_scale > 2)
-    reasons.push_back(
-        fmt::format("residuals are {:.1f} times what the sigmas explain: a lens that is no pinhole, "
-                    "or points that moved",
-                    c.residual_scale));
-  if (double(c.dropped.size()) > 0.3 * double(sightings))
-    reasons.push_back(fmt::format("{:.0f} % of the sightings are outliers",
-                                  100.0 * double(c.dropped.size()) / double(sightings)));
-  return fmt::format("{}", fmt::join(reasons, "; "));
 }
 
 // Another solution that fits as well.
@@ -270,17 +256,28 @@ void check_length(const Tracks& tracks, const KnownLength& length) {
 }
 
 void solve_and_judge(SelfCalibration& c, std::vector<SolvedPair>& pairs,
-                     const SelfCalibrationOptions& options, std::size_t sightings) {
+                     const SelfCalibrationOptions& options, const std::vector<TrackDevice>& devices,
+                     std::size_t sightings) {
   if (strongest_pair(pairs).geometry.homography_explains)
     return refuse(c, homography_reason(c.tracks, strongest_pair(pairs)));
-  const std::vector<Solution> all = solve_all(c.tracks, pairs, c.count.unlinked);
-  if (all.empty()) return refuse(c, "no placement of the devices explains the points");
+  std::vector<Solution> all = solve_all(c.tracks, pairs, c.count.unlinked);
+  add_lenses(c, all, devices);
+  const std::string critical = critical_reason(c.tracks, pairs);
+  const std::string none = critical.empty() ? "no placement of the devices explains the points" : critical;
+  if (all.empty()) return refuse(c, none);
   c.units = all.front().units;
   const Tracks before = c.tracks;
-  const auto converged = refine(c, all.front());
-  if (!converged) return refuse(c, "no placement of the devices explains the points");
+  readmit(c, all.front().adjustment.rig);
+  auto converged = refine(c, all.front().adjustment.rig);
+  if (converged && !c.tracks.has_sigma && lens_free_count(c.tracks) > 0) {
+    // The pairs took the lens for noise.
+    const double scale = std::sqrt(variance_of(c.tracks, c.rig, c.units));
+    for (TrackSighting& s : c.tracks.sightings) s.sigma_px = std::max(0.01, s.sigma_px * scale);
+    converged = refine(c, c.rig);
+  }
+  if (!converged) return refuse(c, none);
   describe(c, options);
-  std::string reason = refusal(c, pairs, options);
+  std::string reason = refusal_reason(c, pairs, options);
   if (reason.empty() && !*converged) reason = "the adjustment does not converge: " + c.termination;
   if (reason.empty()) reason = ambiguity(all, before, std::max(1.0, c.residual_scale * c.residual_scale));
   if (reason.empty() && options.length && !c.metric)
@@ -291,8 +288,20 @@ void solve_and_judge(SelfCalibration& c, std::vector<SolvedPair>& pairs,
         "stations share points",
         c.units.size());
   if (!reason.empty()) return refuse(c, reason);
-  c.reason = weakness(c, options, sightings);
+  c.reason = weakness_reason(c, pairs, options, sightings);
   c.status = c.reason.empty() ? Status::ok : Status::weak;
+}
+
+// Stations have gone: sightings that were left out before get the one that is left of their device.
+void name_anew(std::vector<DroppedSighting>& dropped, const Tracks& before, const Tracks& after) {
+  for (DroppedSighting& d : dropped) {
+    const Station& was = before.stations[d.sighting.station];
+    int best = -1;
+    for (int s = 0; s < after.station_count(); ++s)
+      if (after.stations[s].device == was.device && (best < 0 || after.stations[s].name == was.name))
+        best = s;
+    d.sighting.station = std::max(best, 0);
+  }
 }
 
 }  // namespace
@@ -307,16 +316,21 @@ SelfCalibration self_calibrate(const Tracks& tracks, const SelfCalibrationOption
     return c;
   }
   try {
+    c.tracks = pinhole_view(tracks, c.dropped);
     c.merged = merge_stations(c.tracks);
-    c.count = count_numbers(c.tracks);
-    if (const std::string shortage = shortage_in_words(c.tracks, c.count); !shortage.empty()) {
+    name_anew(c.dropped, tracks, c.tracks);
+    Tracks counted = c.tracks;
+    counted.devices = tracks.devices;
+    c.count = count_numbers(counted);
+    if (const std::string shortage = shortage_in_words(counted, c.count); !shortage.empty()) {
       refuse(c, fmt::format("{}; {}", fmt::join(c.merged, "; "), shortage));
       return c;
     }
     std::vector<SolvedPair> pairs = solve_pairs(c.tracks);
     if (pairs.empty()) throw Refusal("too few points: no two stations share 8");
-    c.dropped = drop_pair_outliers(c.tracks, pairs);
-    solve_and_judge(c, pairs, options, tracks.sightings.size());
+    auto dropped = drop_pair_outliers(c.tracks, pairs);
+    std::move(dropped.begin(), dropped.end(), std::back_inserter(c.dropped));
+    solve_and_judge(c, pairs, options, tracks.devices, tracks.sightings.size());
   } catch (const Refusal& refusal) {
     refuse(c, refusal.what());
   }

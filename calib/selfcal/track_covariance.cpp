@@ -14,21 +14,6 @@ using Matrix = Eigen::MatrixXd;
 
 std::vector<double> values_of(const RowMajor& m) { return {m.data(), m.data() + m.size()}; }
 
-// The size of a natural step of each global column: a share of f, a radian, a share of the mean baseline.
-Eigen::VectorXd natural_units(const Tracks& tracks, const TrackRig& rig) {
-  const TrackColumns columns = columns_of(tracks);
-  Eigen::VectorXd unit = Eigen::VectorXd::Ones(columns.count);
-  for (std::size_t d = 0; d < rig.devices.size(); ++d)
-    for (const int at : columns.intrinsics[d])
-      if (at >= 0) unit[at] = rig.devices[d].fx;
-  double length = 0;
-  for (const Rigid& place : rig.station_from_first)
-    length += glm::length(place.translation) / double(rig.station_from_first.size() - 1);
-  for (const int at : columns.station)
-    if (at >= 0) unit.segment<3>(at + 3).setConstant(length);
-  return unit;
-}
-
 // Directions of the scaled columns that keep every unit baseline; orthonormal columns.
 Matrix free_directions(const Tracks& tracks, const TrackRig& rig, const std::vector<UnitBaseline>& units,
                        const Eigen::VectorXd& scale) {
@@ -48,10 +33,12 @@ TrackCovariance track_covariance(const Tracks& tracks, const TrackRig& rig,
                                  const std::vector<UnitBaseline>& units, double variance) {
   const int n = columns_of(tracks).count;
   const std::vector<double> factor = eliminated_factor(tracks, rig);
-  const Matrix r = Eigen::Map<const RowMajor>(factor.data(), n + 1, n + 1).topLeftCorner(n, n);
-  const Eigen::VectorXd unit = natural_units(tracks, rig);
+  const Eigen::Map<const RowMajor> all(factor.data(), n + 1, n + 1);
+  const Matrix r = all.topLeftCorner(n, n);
+  const std::vector<double> natural = natural_units(tracks, rig);
+  const Eigen::VectorXd unit = Eigen::Map<const Eigen::VectorXd>(natural.data(), n);
   const Matrix z = free_directions(tracks, rig, units, unit);
-  const Eigen::JacobiSVD<Matrix> svd(r * unit.asDiagonal() * z, Eigen::ComputeFullV);
+  const Eigen::JacobiSVD<Matrix> svd(r * unit.asDiagonal() * z, Eigen::ComputeThinU | Eigen::ComputeFullV);
   const Eigen::VectorXd s = svd.singularValues();
   const Eigen::VectorXd weakest = z * svd.matrixV().rightCols(1);
   TrackCovariance c;
@@ -62,6 +49,8 @@ TrackCovariance track_covariance(const Tracks& tracks, const TrackRig& rig,
   c.weakest_sigma = std::sqrt(variance) / s[s.size() - 1];
   const Matrix half = unit.asDiagonal() * z * svd.matrixV() * s.cwiseInverse().asDiagonal();
   c.global = values_of(variance * half * half.transpose());
+  const Eigen::VectorXd step = -half * (svd.matrixU().transpose() * all.col(n).head(n));
+  c.step.assign(step.data(), step.data() + n);
   return c;
 }
 

@@ -13,13 +13,14 @@ namespace laterna {
 /// the sigmas are true.
 struct TrackCovariance {
   std::vector<double> global;     ///< row-major count²
+  std::vector<double> step;       ///< of Gauss and Newton, the points moving along: 0 at an optimum
   double smallest_gap = 0;        ///< last over first singular value of the scaled columns
   double weakest_sigma = 0;       ///< of the weakest direction: shares of f, radians, shares of the baseline
   std::string weakest_direction;  ///< in words
 };
 
-/// `variance` multiplies the sightings' own. `global` is empty where the gap is 1e-10 or less: the pixels do
-/// not determine every parameter; the rest still stands, with an infinite sigma.
+/// `variance` multiplies the sightings' own. `global` and `step` are empty where the gap is 1e-10 or less:
+/// the pixels do not determine every parameter; the rest still stands, with an infinite sigma.
 TrackCovariance track_covariance(const Tracks& tracks, const TrackRig& rig,
                                  const std::vector<UnitBaseline>& units, double variance);
 

@@ -1,5 +1,7 @@
 #include "calib/selfcal/track_rig.h"
 
+#include "calib/boards/rig.h"
+
 #include <fmt/format.h>
 
 #include <Eigen/Dense>
@@ -40,16 +42,31 @@ std::size_t end_of_point(const Tracks& tracks, std::size_t begin) {
   return end;
 }
 
+// What of a parameter of the device moves the farthest corner of its image by f; 1 where nothing does.
+double corner_unit(const LensGradient& lens, const Intrinsics& k, const std::vector<double>& lens_parameters,
+                   std::size_t parameter) {
+  std::vector<double> all{k.fx, k.fy, k.cx, k.cy}, by_parameter(2 * std::size_t(lens.parameter_count()));
+  all.insert(all.end(), lens_parameters.begin(), lens_parameters.end());
+  const glm::dvec3 corner(std::max(k.cx, k.size.x - k.cx) / k.fx, std::max(k.cy, k.size.y - k.cy) / k.fy, 1);
+  double pixel[2];
+  if (!lens.project(all, corner, pixel, nullptr, by_parameter.data())) return 1;
+  const double moved = std::hypot(by_parameter[parameter], by_parameter[all.size() + parameter]);
+  return moved > 0 && std::isfinite(moved) ? k.fx / moved : 1;
+}
+
 }  // namespace
 
 TrackColumns columns_of(const Tracks& tracks) {
   TrackColumns c;
   for (const TrackDevice& d : tracks.devices) {
-    std::array<int, 4> at{-1, -1, -1, -1};
+    std::vector<int> at(4 + d.lens.parameters.size(), -1);
     if (d.focal) at[0] = at[1] = c.count++;
     if (d.aspect) at[1] = c.count++;
     if (d.center) at[2] = c.count++, at[3] = c.count++;
-    c.intrinsics.push_back(at);
+    for (std::size_t i = 0; i < d.lens_free.size(); ++i)
+      if (d.lens_free[i]) at[4 + i] = c.count++;
+    c.intrinsics.push_back(std::move(at));
+    c.lenses.emplace_back(d.lens.model);
   }
   for (int s = 0; s < tracks.station_count(); ++s) {
     c.station.push_back(s == 0 ? -1 : c.count);
@@ -64,6 +81,8 @@ std::vector<std::string> column_names(const Tracks& tracks) {
     if (d.focal) names.push_back(d.name + (d.aspect ? " fx" : " f"));
     if (d.aspect) names.push_back(d.name + " fy");
     if (d.center) names.push_back(d.name + " cx"), names.push_back(d.name + " cy");
+    for (std::size_t i = 0; i < d.lens_free.size(); ++i)
+      if (d.lens_free[i]) names.push_back(d.name + " " + lens_parameter_name(d.lens.model, int(i)));
   }
   for (int s = 1; s < tracks.station_count(); ++s)
     for (const char* kind : {"rotation", "translation"})
@@ -79,6 +98,8 @@ TrackRig moved(const Tracks& tracks, const TrackRig& rig, const std::vector<doub
     double* const value[] = {&m.devices[d].fx, &m.devices[d].fy, &m.devices[d].cx, &m.devices[d].cy};
     for (int i = 0; i < 4; ++i)
       if (columns.intrinsics[d][i] >= 0) *value[i] += step[columns.intrinsics[d][i]];
+    for (std::size_t i = 0; i < m.lenses[d].size(); ++i)
+      if (const int at = columns.intrinsics[d][4 + i]; at >= 0) m.lenses[d][i] += step[at];
   }
   for (std::size_t s = 1; s < m.station_from_first.size(); ++s) {
     const double* by = step.data() + columns.station[s];
@@ -89,35 +110,54 @@ TrackRig moved(const Tracks& tracks, const TrackRig& rig, const std::vector<doub
   return m;
 }
 
+ProjectorState state_of(const Tracks& tracks, const TrackRig& rig, int station) {
+  const int device = tracks.stations[station].device;
+  const Intrinsics& k = rig.devices[device];
+  ProjectorState state{{k.fx, k.fy, k.cx, k.cy}, rig.station_from_first[station]};
+  state.parameters.insert(state.parameters.end(), rig.lenses[device].begin(), rig.lenses[device].end());
+  return state;
+}
+
+std::vector<double> natural_units(const Tracks& tracks, const TrackRig& rig) {
+  const TrackColumns columns = columns_of(tracks);
+  std::vector<double> unit(columns.count, 1.0);
+  for (std::size_t d = 0; d < rig.devices.size(); ++d)
+    for (std::size_t i = 0; i < columns.intrinsics[d].size(); ++i)
+      if (const int at = columns.intrinsics[d][i]; at >= 0)
+        unit[at] =
+            i < 4 ? rig.devices[d].fx : corner_unit(columns.lenses[d], rig.devices[d], rig.lenses[d], i);
+  double length = 0;
+  for (const Rigid& place : rig.station_from_first)
+    length += glm::length(place.translation) / double(rig.station_from_first.size() - 1);
+  for (const int at : columns.station)
+    for (int i = 3; i < 6 && at >= 0; ++i) unit[at + i] = length;
+  return unit;
+}
+
 std::optional<glm::dvec2> predict(const Tracks& tracks, const TrackColumns& columns, const TrackRig& rig,
                                   int station, const glm::dvec3& x_first, double* by_global,
                                   double* by_point) {
   const int device = tracks.stations[station].device;
-  const Intrinsics& k = rig.devices[device];
-  const Rigid& place = rig.station_from_first[station];
-  const glm::dvec3 rotated = place.rotation * x_first, x = rotated + place.translation;
-  if (!(x.z > 0)) return std::nullopt;
-  const glm::dvec2 n(x.x / x.z, x.y / x.z);
-  const glm::dvec3 gradient[2] = {{k.fx / x.z, 0, -k.fx * n.x / x.z}, {0, k.fy / x.z, -k.fy * n.y / x.z}};
-  for (int row = 0; row < 2; ++row) {
-    const glm::dvec3& g = gradient[row];
-    if (by_point) {
-      const glm::dvec3 r = glm::transpose(place.rotation) * g;
-      for (int i = 0; i < 3; ++i) by_point[3 * row + i] = r[i];
-    }
+  const LensGradient& lens = columns.lenses[device];
+  const int k = lens.parameter_count(), p = k + 6;
+  const ProjectorState state = state_of(tracks, rig, station);
+  const bool with_rows = by_global || by_point;
+  std::vector<double> rows(with_rows ? 2 * std::size_t(p) : 0);
+  double pixel[2];
+  if (!project_with_rows(lens, state, x_first, pixel, with_rows ? rows.data() : nullptr)) return std::nullopt;
+  for (int r = 0; r < 2 && with_rows; ++r) {
+    const double* row = rows.data() + r * p;
+    const glm::dvec3 g(row[k + 3], row[k + 4], row[k + 5]);
+    const glm::dvec3 along = g * state.device_from_points.rotation;  // a row times a matrix
+    for (int i = 0; i < 3 && by_point; ++i) by_point[3 * r + i] = along[i];
     if (!by_global) continue;
-    double* out = by_global + row * columns.count;
-    const auto& at = columns.intrinsics[device];
-    if (at[row] >= 0) out[at[row]] += n[row];
-    if (at[2 + row] >= 0) out[at[2 + row]] += 1;
-    if (columns.station[station] < 0) continue;
-    const glm::dvec3 turn = glm::cross(rotated, g);  // g·(w × Rx) = w·(Rx × g)
-    for (int i = 0; i < 3; ++i) {
-      out[columns.station[station] + i] += turn[i];
-      out[columns.station[station] + 3 + i] += g[i];
-    }
+    double* out = by_global + r * columns.count;
+    for (int i = 0; i < k; ++i)
+      if (const int at = columns.intrinsics[device][i]; at >= 0) out[at] += row[i];
+    for (int i = 0; i < 6 && columns.station[station] >= 0; ++i)
+      out[columns.station[station] + i] += row[k + i];
   }
-  return glm::dvec2(k.fx * n.x + k.cx, k.fy * n.y + k.cy);
+  return glm::dvec2(pixel[0], pixel[1]);
 }
 
 std::vector<double> scaled_residuals(const Tracks& tracks, const TrackRig& rig) {

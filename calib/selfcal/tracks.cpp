@@ -1,5 +1,7 @@
 #include "calib/selfcal/tracks.h"
 
+#include "calib/boards/rig.h"
+
 #include "calib/csv.h"
 #include "sim/error.h"
 #include "sim/text_file.h"
@@ -113,6 +115,10 @@ void validate(const Tracks& tracks) {
     Intrinsics k = d.intrinsics;
     if (d.focal) k.fx = k.fy = 1;
     validate(k, d.name.c_str());
+    const LensProjection checks_the_lens(k, d.lens);
+    if (!d.lens_free.empty() && d.lens_free.size() != d.lens.parameters.size())
+      throw InputError(fmt::format("{}: {} flags of free lens parameters, expected {}", d.name,
+                                   d.lens_free.size(), d.lens.parameters.size()));
   }
   for (const Station& s : tracks.stations)
     if (s.device < 0 || s.device >= int(tracks.devices.size()))
@@ -166,6 +172,21 @@ TrackDevice device_in_words(const std::string& name, glm::ivec2 size, const std:
     d.intrinsics.cx = (*c)[0], d.intrinsics.cy = (*c)[1];
   }
   return d;
+}
+
+void set_lens_word(TrackDevice& device, const std::string& word) {
+  device.lens_climbs = word == "auto";
+  if (device.lens_climbs) return;
+  try {
+    const std::vector<std::string> terms = lens_terms(word);
+    if (are_splined(terms))
+      throw InputError("a splined lens is for boards and known scenes, expected another lens");
+    const DeviceModel model = model_of_terms(terms);
+    device.lens = {model.lens_model, std::vector<double>(model.lens_free.size(), 0.0)};
+    device.lens_free = model.lens_free;
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", device.name, error.what()));
+  }
 }
 
 }  // namespace laterna

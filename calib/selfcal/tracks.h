@@ -2,7 +2,9 @@
 #pragma once
 
 #include "sim/intrinsics.h"
+#include "sim/lens.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -10,15 +12,22 @@
 
 namespace laterna {
 
-/// A camera or a projector: a pinhole, u = fx·x/z + cx, v = fy·y/z + cy. What is not free keeps its value.
+/// A camera or a projector: u = fx·x/z + cx, v = fy·y/z + cy, or a lens of sim/lens.h. What is not free keeps
+/// its value.
 struct TrackDevice {
   std::string name;
   Intrinsics intrinsics;  ///< held values; of what is free, only the principal point counts, as a start
   bool focal = false;     ///< the focal length is solved for: fx = fy unless `aspect`
   bool aspect = false;    ///< fx and fy are two numbers
   bool center = false;    ///< cx and cy are solved for
+  Lens lens = {};         ///< held parameters; of what is free, a start
+  std::vector<bool> lens_free = {};  ///< one per lens parameter: it is solved for; empty: none is
+  bool lens_climbs = false;          ///< terms are added while they forecast better (track_ladder.h)
 
-  int free_count() const { return int(focal) + int(aspect) + 2 * int(center); }
+  /// The lens is given, not sought: its distortion can be undone before anything is solved.
+  bool lens_known() const { return !is_pinhole(lens) && lens_free_count() == 0; }
+  int lens_free_count() const { return int(std::count(lens_free.begin(), lens_free.end(), true)); }
+  int free_count() const { return int(focal) + int(aspect) + 2 * int(center) + lens_free_count(); }
 };
 
 /// A placement of a device. A device that did not move between two pictures stands in one station.
@@ -68,8 +77,9 @@ Tracks read_tracks(const std::filesystem::path& path);
 /// The inverse of parse_tracks, sigmas included.
 std::string tracks_text(const Tracks& tracks);
 
-/// Throws InputError where a device has no valid size, a held focal length that is not positive, a number
-/// that is not finite, or an index is out of range; sightings must be sorted and single.
+/// Throws InputError where a device has no valid size, a held focal length that is not positive, a lens that
+/// LensProjection refuses, a number that is not finite, or an index is out of range; sightings must be sorted
+/// and single.
 void validate(const Tracks& tracks);
 
 /// What a table says of a device by words. `known`: "fx,fy,cx,cy", or empty. `assume`: what is free, joined
@@ -78,5 +88,9 @@ void validate(const Tracks& tracks);
 /// must be given. Throws InputError, naming the device, for other words.
 TrackDevice device_in_words(const std::string& name, glm::ivec2 size, const std::string& known,
                             const std::string& assume, const std::string& center = "");
+
+/// What a device's lens is said to be: auto, or a word of lens_terms() (boards/rig.h), whose terms are solved
+/// for. Throws InputError, naming the device, for another word.
+void set_lens_word(TrackDevice& device, const std::string& word);
 
 }  // namespace laterna

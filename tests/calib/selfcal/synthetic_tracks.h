@@ -50,7 +50,10 @@ inline TrackTruth track_truth(std::vector<TrackDevice> devices, const std::vecto
   t.tracks.has_sigma = true;
   for (std::size_t s = 0; s < from_world.size(); ++s)
     t.tracks.stations.push_back({device_of_station[s], fmt::format("{}", s)});
-  for (const TrackDevice& d : t.tracks.devices) t.rig.devices.push_back(d.intrinsics);
+  for (const TrackDevice& d : t.tracks.devices) {
+    t.rig.devices.push_back(d.intrinsics);
+    t.rig.lenses.push_back(d.lens.parameters);
+  }
   const Rigid world_from_first = inverse(from_world[0]);
   for (const Rigid& place : from_world) t.rig.station_from_first.push_back(compose(place, world_from_first));
   const TrackColumns columns = columns_of(t.tracks);
@@ -111,6 +114,9 @@ inline std::vector<double> error_step(const SelfCalibration& c, const TrackRig& 
     const double by[4] = {k.fx - t.fx, k.fy - t.fy, k.cx - t.cx, k.cy - t.cy};
     for (int i = 0; i < 4; ++i)
       if (columns.intrinsics[d][i] >= 0) step[columns.intrinsics[d][i]] = by[i];
+    for (std::size_t i = 0; i < truth.lenses[d].size(); ++i)
+      if (const int at = columns.intrinsics[d][4 + i]; at >= 0)
+        step[at] = c.rig.lenses[d][i] - truth.lenses[d][i];
   }
   for (std::size_t s = 1; s < truth.station_from_first.size(); ++s) {
     const Rigid &k = c.rig.station_from_first[s], &t = truth.station_from_first[s];
