@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -37,24 +38,22 @@ struct GrayPictures {
       : stack(pictures), columns(pictures, sequence, 0), rows(pictures, sequence, 1), limits(thresholds) {}
 };
 
-/// What the pictures tell of one segment.
+/// A run of pixels, and white and black there.
 template <class T>
 struct Segment {
   std::size_t begin, count;
-  std::vector<std::uint16_t> column, row;
-  std::vector<T> weakest;
+  std::vector<T> weakest;  ///< of all pairs, once read() has been called
   const T *white, *black;
 
   Segment(const GrayPictures<T>& pictures, std::size_t index)
       : begin(index * segment_pixels),
         count(std::min(segment_pixels, pictures.stack.picture_size() - begin)),
-        column(count),
-        row(count),
         weakest(count, std::numeric_limits<T>::max()),
         white(pictures.stack.picture(pictures.stack.count - 2).data() + begin),
-        black(pictures.stack.picture(pictures.stack.count - 1).data() + begin) {
-    pictures.columns.read(begin, count, column.data(), weakest.data());
-    pictures.rows.read(begin, count, row.data(), weakest.data());
+        black(pictures.stack.picture(pictures.stack.count - 1).data() + begin) {}
+  void read(const GrayPictures<T>& pictures, std::uint16_t* column, std::uint16_t* row) {
+    pictures.columns.read(begin, count, column, weakest.data());
+    pictures.rows.read(begin, count, row, weakest.data());
   }
   float contrast(std::size_t i) const { return static_cast<float>(white[i] - black[i]); }
 };
@@ -62,8 +61,10 @@ struct Segment {
 /// Calls body(segment) for all pixels.
 template <class T, class Body>
 void for_segments(const GrayPictures<T>& pictures, const Body& body) {
-  parallel_for((pictures.stack.picture_size() + segment_pixels - 1) / segment_pixels,
-               [&](std::size_t index) { body(Segment<T>(pictures, index)); });
+  parallel_for((pictures.stack.picture_size() + segment_pixels - 1) / segment_pixels, [&](std::size_t index) {
+    Segment<T> segment(pictures, index);
+    body(segment);
+  });
 }
 
 bool is_lit(float contrast, const Limits& limits) { return contrast > limits.white_minus_black; }
@@ -75,10 +76,12 @@ template <class T>
 DecodedMap decode(const GrayPictures<T>& pictures) {
   DecodedMap map(pictures.stack.width, pictures.stack.height);
   const float sigma = static_cast<float>(1 / std::sqrt(12.0));
-  for_segments(pictures, [&](const Segment<T>& segment) {
+  for_segments(pictures, [&](Segment<T>& segment) {
+    std::array<std::uint16_t, segment_pixels> columns, rows;
+    segment.read(pictures, columns.data(), rows.data());
     for (std::size_t i = 0; i < segment.count; ++i) {
       const std::size_t pixel = segment.begin + i;
-      const int column = segment.column[i], row = segment.row[i];
+      const int column = columns[i], row = rows[i];
       const float contrast = segment.contrast(i), weakest = segment.weakest[i];
       map.confidence.values[pixel] = contrast > 0 ? std::min(weakest / contrast, 1.0f) : 0.0f;
       const bool inside = column < pictures.columns.code.stripes && row < pictures.rows.code.stripes;
@@ -102,13 +105,12 @@ void decode_codes(const GrayPictures<T>& pictures, GrayCodes& codes) {
   const PairLimits limits{pictures.limits.white_minus_black, pictures.limits.pair_difference,
                           pictures.limits.pair_fraction, pictures.columns.code.stripes,
                           pictures.rows.code.stripes};
-  for_segments(pictures, [&](const Segment<T>& segment) {
-    std::copy(segment.column.begin(), segment.column.end(),
-              codes.column.values.begin() + std::ptrdiff_t(segment.begin));
-    std::copy(segment.row.begin(), segment.row.end(),
-              codes.row.values.begin() + std::ptrdiff_t(segment.begin));
-    judge_pairs(segment.white, segment.black, segment.weakest.data(), segment.column.data(),
-                segment.row.data(), limits, segment.count, codes.valid.values.data() + segment.begin);
+  for_segments(pictures, [&](Segment<T>& segment) {
+    std::uint16_t *column = codes.column.values.data() + segment.begin,
+                  *row = codes.row.values.data() + segment.begin;
+    segment.read(pictures, column, row);
+    judge_pairs(segment.white, segment.black, segment.weakest.data(), column, row, limits, segment.count,
+                codes.valid.values.data() + segment.begin);
   });
 }
 

@@ -22,19 +22,28 @@ HWY_INLINE void store_codes(D d, hn::Vec<D> codes, std::uint8_t* to) {
   }
 }
 
-template <class D, class T>
+// `vectors` neighbouring ones at a time: as many bytes of each picture in a row.
+template <int vectors, class D, class T>
 HWY_INLINE void read_at(D d, const T* const* pattern, const T* const* inverse, int pairs, std::size_t i,
                         std::uint8_t* codes, T* weakest) {
-  auto code = hn::Zero(d), least = hn::LoadU(d, weakest + i);
+  hn::Vec<D> code[vectors], least[vectors];
+  const std::size_t lanes = hn::Lanes(d);
+  for (int n = 0; n < vectors; ++n)
+    code[n] = hn::Zero(d), least[n] = hn::LoadU(d, weakest + i + std::size_t(n) * lanes);
   for (int k = 0; k < pairs; ++k) {
-    const auto a = hn::LoadU(d, pattern[k] + i), b = hn::LoadU(d, inverse[k] + i);
-    const auto above = hn::SaturatedSub(a, b), below = hn::SaturatedSub(b, a);
-    const auto bit = hn::IfThenElse(hn::Eq(above, hn::Zero(d)), hn::Zero(d), hn::Set(d, T{1}));
-    code = hn::Add(hn::Add(code, code), bit);
-    least = hn::Min(least, hn::Or(above, below));
+    for (int n = 0; n < vectors; ++n) {
+      const std::size_t at = i + std::size_t(n) * lanes;
+      const auto a = hn::LoadU(d, pattern[k] + at), b = hn::LoadU(d, inverse[k] + at);
+      const auto above = hn::SaturatedSub(a, b), below = hn::SaturatedSub(b, a);
+      const auto bit = hn::IfThenElse(hn::Eq(above, hn::Zero(d)), hn::Zero(d), hn::Set(d, T{1}));
+      code[n] = hn::Add(hn::Add(code[n], code[n]), bit);
+      least[n] = hn::Min(least[n], hn::Or(above, below));
+    }
   }
-  store_codes(d, code, codes + i);
-  hn::StoreU(least, d, weakest + i);
+  for (int n = 0; n < vectors; ++n) {
+    store_codes(d, code[n], codes + i + std::size_t(n) * lanes);
+    hn::StoreU(least[n], d, weakest + i + std::size_t(n) * lanes);
+  }
 }
 
 template <class T>
@@ -42,10 +51,10 @@ HWY_INLINE void read_all(const T* const* pattern, const T* const* inverse, int p
                          std::uint8_t* codes, T* weakest) {
   const hn::ScalableTag<T> wide;
   const hn::CappedTag<T, 1> single;
+  const std::size_t lanes = hn::Lanes(wide);
   std::size_t i = 0;
-  for (; i + hn::Lanes(wide) <= count; i += hn::Lanes(wide))
-    read_at(wide, pattern, inverse, pairs, i, codes, weakest);
-  for (; i < count; ++i) read_at(single, pattern, inverse, pairs, i, codes, weakest);
+  for (; i + 4 * lanes <= count; i += 4 * lanes) read_at<4>(wide, pattern, inverse, pairs, i, codes, weakest);
+  for (; i < count; ++i) read_at<1>(single, pattern, inverse, pairs, i, codes, weakest);
 }
 
 void read_pairs_8(const std::uint8_t* const* pattern, const std::uint8_t* const* inverse, int pairs,
