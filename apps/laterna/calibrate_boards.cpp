@@ -18,7 +18,9 @@ namespace laterna {
 namespace {
 
 glm::ivec2 size_of(const std::vector<std::string>& words, const char* option) {
-  if (words.size() != 1)
+  if (words.empty())
+    throw InputError(fmt::format("{} is missing, expected WIDTHxHEIGHT such as 1280x1024", option));
+  if (words.size() > 1)
     throw InputError(
         fmt::format("{} stands {} times, expected one WIDTHxHEIGHT such as 1280x1024", option, words.size()));
   const auto size = parse_size(words[0], option);

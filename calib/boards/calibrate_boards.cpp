@@ -3,6 +3,7 @@
 #include "calib/boards/known_devices.h"
 #include "calib/boards/rig_start.h"
 #include "sim/error.h"
+#include "sim/spline_knots.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -128,6 +129,25 @@ void add_forecast_weaknesses(const BoardCalibration& r, const BoardOptions& opti
   if (!d.maps_its_volume) weak.emplace_back("the estimated lens maps no ray to parts of an image");
 }
 
+// A spline is told only where sightings lie: what it predicts over its own image, at the boards' middle
+// range.
+void add_spline_weakness(const BoardCalibration& r, const BoardOptions& options,
+                         std::vector<std::string>& weak) {
+  const RigModel& model = r.ladder.fit.model;
+  for (std::size_t d = 0; d < r.devices.size(); ++d) {
+    const DeviceDiagnosis& device = r.diagnosis.devices[d];
+    if (!is_splined(model.devices[d].lens_model) || model.devices[d].known || device.ranges.size() < 2)
+      continue;
+    const double predicted_px = device.ranges[1].rms_px;
+    if (predicted_px <= options.tolerance_px) continue;
+    weak.push_back(
+        fmt::format("{}: its spline is predicted to {:.2g} px over its whole image, above the tolerance of "
+                    "{:.2g} px, with "
+                    "sightings in {:.0f} % of it; let boards reach the rest, or take a lens of few terms",
+                    r.devices[d].name, predicted_px, options.tolerance_px, 100 * device.coverage));
+  }
+}
+
 void add_residual_weakness(const BoardCalibration& r, const BoardOptions& options,
                            std::vector<std::string>& weak) {
   if (options.estimate_sigma) return;
@@ -235,6 +255,7 @@ BoardCalibration calibrate_boards(const BoardCapture& capture, const BoardOption
   std::vector<std::string> weak;
   add_capture_weaknesses(result, capture, weak);
   add_forecast_weaknesses(result, options, weak);
+  add_spline_weakness(result, options, weak);
   add_residual_weakness(result, options, weak);
   add_bend_weakness(result, options, weak);
   if (const std::string twin = second_placement(result.ladder.fit); !twin.empty()) weak.push_back(twin);

@@ -53,7 +53,8 @@ struct BoardCalibration {
 /// within 10°), no solution without one of the poses, a predicted volume error (covariance or jackknife over
 /// poses, whichever is larger) above the tolerance, a focal length known to 2 % only, a held-out rms above
 /// three times the fit's, a bend left out by order that the residuals follow, more than 5 % outliers,
-/// residuals over twice the believed sigmas, a lens that maps no ray to parts of the image. The verdict never
+/// residuals over twice the believed sigmas, a lens that maps no ray to parts of the image, a spline whose
+/// prediction over its own image is above the tolerance. The verdict never
 /// looks at a truth. Throws InputError for a malformed capture.
 BoardCalibration calibrate_boards(const BoardCapture& capture, const BoardOptions& options = {});
 

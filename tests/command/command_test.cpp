@@ -218,103 +218,6 @@ TEST(Command, RefusalsHaveTheirOwnExitCode) {
   EXPECT_EQ(json::parse(weak.out).at("projectors").at(0).at("status"), "weak");
 }
 
-// A board of 5×4 corners in front of a pinhole camera at the origin and a projector 0.3 beside it.
-std::string board_table(int poses) {
-  std::string text = "pose,corner,board_x,board_y,board_z,cam_x,cam_y,proj_x,proj_y,valid\n";
-  for (int pose = 0; pose < poses; ++pose) {
-    const double about = 1.3 * pose, tilt = 0.5, c = std::cos(tilt), s = std::sin(tilt);
-    const double ax = std::cos(about), ay = std::sin(about);
-    for (int corner = 0; corner < 20; ++corner) {
-      const int row = corner / 5;
-      const double bx = 0.1 * (corner % 5), by = 0.1 * row, x = bx - 0.2, y = by - 0.15;
-      const double along = ax * x + ay * y;  // Rodrigues' formula about (ax, ay, 0)
-      const double px = c * x + (1 - c) * along * ax + 0.05 * (pose % 3 - 1);
-      const double py = c * y + (1 - c) * along * ay + 0.04 * (pose % 2);
-      const double pz = s * (ax * y - ay * x) + 1.5 + 0.1 * pose;
-      // Noise below 0.05 px, so that there is something to estimate.
-      const double n = 0.05 * std::sin(12.9898 * (corner + 20 * pose)),
-                   m = 0.05 * std::sin(78.233 * (corner + 20 * pose));
-      text += fmt::format("{},{},{},{},0,{},{},{},{},1\n", pose, corner, bx, by, 900 * px / pz + 320 + n,
-                          900 * py / pz + 240 + m, 800 * (px + 0.3) / pz + 250 - m, 800 * py / pz + 380 + n);
-    }
-  }
-  return text;
-}
-
-TEST(Command, CalibrateTakesATableOfCorrespondences) {
-  const ScratchFolder scratch;
-  write_text(scratch / "board.csv", board_table(6));
-  const std::string words =
-      "calibrate board.csv --camera-size 640x480 --projector-size 640x480 --lens pinhole";
-  const auto result = laterna(words + " --json -o out.json", scratch.path());
-  ASSERT_EQ(result.exit_code, 0) << result.err << result.out;
-  const json parsed = json::parse(result.out);
-  EXPECT_EQ(parsed.at("status"), "ok");
-  EXPECT_EQ(parsed.at("reason"), "");
-  EXPECT_LT(parsed.at("fit_rms_px").get<double>(), 0.1);
-  EXPECT_LT(parsed.at("held_out_px").at("rms").get<double>(), 0.2);
-  EXPECT_EQ(parsed.at("held_out_px").at("folds").size(), 6u);
-  for (const char* kind : {"cameras", "projectors"}) {
-    const json& device = parsed.at(kind).at(0);
-    EXPECT_EQ(device.at("size"), json({640, 480}));
-    EXPECT_EQ(device.at("lens").at("model"), "LENSMODEL_PINHOLE");
-    EXPECT_TRUE(device.at("lens").at("parameters").is_array());
-    EXPECT_GT(device.at("sigma").at("fx").get<double>(), 0);
-  }
-  EXPECT_NEAR(parsed["cameras"][0]["fx"], 900, 10);  // some five sigma
-  EXPECT_NEAR(parsed["projectors"][0]["cy"], 380, 10);
-  const json rows = parsed["projectors"][0]["device_from_camera"];
-  ASSERT_EQ(rows.size(), 3u);
-  EXPECT_NEAR(rows[0][3], 0.3, 0.02);
-  EXPECT_FALSE(parsed.at("ladder").empty());
-  EXPECT_EQ(json::parse(testing::read_text(scratch / "out.json")), parsed);
-  const auto text = laterna(words + " --compare", scratch.path());
-  EXPECT_EQ(text.exit_code, 0) << text.err;
-  EXPECT_THAT(text.out,
-              ::testing::AllOf(HasSubstr("lens ladder"), HasSubstr("projector translation_x"),
-                               HasSubstr("verdict: ok"), HasSubstr("opencv-joint"), HasSubstr("mrcal")));
-}
-
-TEST(Command, TablesThatCannotTellAreRefusedOrWeak) {
-  const ScratchFolder scratch;
-  write_text(scratch / "one.csv", board_table(1));
-  write_text(scratch / "two.csv", board_table(2));
-  const std::string sizes = " --camera-size 640x480 --projector-size 640x480 --json";
-  const auto one = laterna("calibrate one.csv" + sizes, scratch.path());
-  EXPECT_EQ(one.exit_code, 3);
-  EXPECT_EQ(json::parse(one.out).at("status"), "refused");
-  EXPECT_THAT(json::parse(one.out).at("reason").get<std::string>(), HasSubstr("one pose"));
-  const auto two = laterna("calibrate two.csv" + sizes, scratch.path());
-  EXPECT_THAT(two.exit_code, ::testing::AnyOf(3, 4));
-}
-
-TEST(Command, BadTablesAndWordsAreOneSentence) {
-  const ScratchFolder scratch;
-  write_text(scratch / "board.csv", board_table(3));
-  write_text(scratch / "bad.csv", board_table(3) + "0,99,1,2\n");
-  std::filesystem::create_directory(scratch / "folder");
-  const std::string sizes = " --camera-size 640x480 --projector-size 640x480";
-  for (const auto& [words, expected] : std::vector<std::pair<std::string, std::string>>{
-           {"bad.csv" + sizes, "bad.csv: line 62: found 4 cells, expected 10"},
-           {"none.csv" + sizes, "none.csv"},
-           {"board.csv --projector-size 640x480", "--camera-size is missing"},
-           {"board.csv --camera-size 640x480", "--projector-size is missing"},
-           {"board.csv --camera-size 100x100 --projector-size 640x480",
-            "expected one in an image of 100x100"},
-           {"board.csv --lens fisheye" + sizes, "lens is \"fisheye\", expected auto"},
-           {"board.csv --scene s.toml" + sizes, "--scene is for pictures"},
-           {"folder --lens k1", "--lens is for boards"},
-           {"folder --camera-size 3x4 --board chessboard,9x7,75mm", "--camera-size is for a table"},
-           {"board.csv --board chessboard,9x7,75mm" + sizes, "--board is for pictures"},
-           {"folder --board chess", "board \"chess\", expected chessboard"},
-           {"folder folder", "2 folders, expected one"}}) {
-    const auto result = laterna("calibrate " + words, scratch.path());
-    EXPECT_EQ(result.exit_code, 2) << words;
-    EXPECT_THAT(result.err, HasSubstr(expected)) << words;
-    EXPECT_EQ(result.out, "") << words;
-  }
-}
-
 TEST(Command, TheCommittedReferenceIsTheGeneratedOne) {
   const ScratchFolder scratch;
   const auto page = laterna("--command-reference", scratch.path());
@@ -453,24 +356,6 @@ TEST(Command, ChartKeepsItsContractAndItsCommandsReproduce) {
   EXPECT_EQ(json::parse(again.out)["points"][0]["error_px"], point["error_px"]);
   EXPECT_EQ(laterna("chart sweep.toml -o out --json", scratch.path()).exit_code, 2);  // holds a run already
   EXPECT_EQ(laterna("chart sweep.toml -o out --resume --json", scratch.path()).out, run.out);
-}
-
-// A calibration's JSON becomes a page and figures beside it, or neither.
-TEST(Command, ReportLeavesAPageAndItsFigures) {
-  const ScratchFolder scratch;
-  write_text(scratch / "board.csv", board_table(6));
-  laterna("calibrate board.csv --camera-size 640x480 --projector-size 640x480 -o board.json", scratch.path());
-  std::filesystem::create_directory(scratch / "there");
-  const auto refused = laterna("report board.json --figures there", scratch.path());
-  EXPECT_EQ(refused.exit_code, 2);
-  EXPECT_THAT(refused.err, HasSubstr("there"));
-  EXPECT_EQ(listing(scratch.path()), "board.csv board.json there ");
-  const auto page = laterna("report board.json --figures figures", scratch.path());
-  EXPECT_EQ(page.exit_code, 0) << page.err;
-  EXPECT_THAT(page.out, HasSubstr("open board.html"));
-  EXPECT_THAT(listing(scratch / "figures"), HasSubstr("lens_ladder.svg"));
-  EXPECT_THAT(testing::read_text(scratch / "board.html"), HasSubstr("<!doctype html>"));
-  EXPECT_EQ(laterna("report nowhere", scratch.path()).exit_code, 2);
 }
 
 }  // namespace
