@@ -44,6 +44,15 @@ void add_curvature(const Eigen::MatrixXd& a, const Eigen::VectorXd& r, const Rob
   }
 }
 
+// What a prior's own errors do to whitened parameters: Bᵀ·B of its rows B = [diag(1/sigma) 0]·R⁻¹.
+Eigen::MatrixXd prior_part(const IntrinsicsPrior& prior, const Eigen::MatrixXd& r) {
+  const Eigen::Index k = Eigen::Index(prior.mean.size());
+  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(k, r.cols());
+  for (Eigen::Index i = 0; i < k; ++i) rows(i, i) = prior.inverse_sigma[std::size_t(i)];
+  const Eigen::MatrixXd b = r.triangularView<Eigen::Upper>().transpose().solve(rows.transpose());
+  return b * b.transpose();
+}
+
 }  // namespace
 
 std::optional<std::vector<double>> clustered_covariance(const PointTable& points, const LensGradient& lens,
@@ -86,12 +95,13 @@ std::optional<std::vector<double>> clustered_covariance(const PointTable& points
     sum += sums[b];
     hessian += curvatures[b];
   }
+  sum *= double(clusters - 1) / double(clusters);
+  if (!points.prior.empty()) sum += prior_part(points.prior, r);
   if (robust) {
     const Eigen::LDLT<Eigen::MatrixXd> ldlt(hessian);
     if (!(ldlt.vectorD().minCoeff() > 0.01)) return std::nullopt;
     sum = ldlt.solve(ldlt.solve(sum).transpose()).eval();
   }
-  sum *= double(clusters - 1) / double(clusters);
   const Eigen::MatrixXd half = r.triangularView<Eigen::Upper>().solve(sum);
   const RowMajor c = r.triangularView<Eigen::Upper>().solve(half.transpose());
   if (!c.allFinite()) return std::nullopt;

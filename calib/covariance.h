@@ -14,7 +14,8 @@ namespace laterna {
 /// Right whatever the correlation inside a cluster, as long as clusters are many (3·p or more) and
 /// independent. Row-major p×p, tangent order, the points' frame. `factor`: row_factor() at `state`, of full
 /// rank. None where a cluster cannot be left out: the others do not determine the projector. With a robust
-/// loss H is the true second derivative, ρ'·JᵀJ + 2ρ''·(Jᵀr)(Jᵀr)ᵀ; for H_g its first term stands.
+/// loss H is the true second derivative, ρ'·JᵀJ + 2ρ''·(Jᵀr)(Jᵀr)ᵀ; for H_g its first term stands. A prior is
+/// of no cluster: its rows B add H⁻¹·BᵀB·H⁻¹, as if its means had errors of its sigmas.
 std::optional<std::vector<double>> clustered_covariance(const PointTable& points, const LensGradient& lens,
                                                         const ProjectorState& state, const RobustLoss& loss,
                                                         const std::vector<double>& factor);

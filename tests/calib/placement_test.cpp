@@ -35,11 +35,11 @@ double placement_error(const Device& truth, const Device& estimate) {
 }
 
 // eᵀ·C⁻¹·e over the last six parameters.
-double placement_chi2(const Device& truth, const SolveResult& r) {
+double placement_chi2(const Device& truth, const SolveResult& r, const std::vector<double>& covariance) {
   std::vector<double> e = tangent_error(truth, r.estimate), c;
   const std::size_t p = e.size();
   for (std::size_t i = p - 6; i < p; ++i)
-    for (std::size_t j = p - 6; j < p; ++j) c.push_back(r.covariance_independent[i * p + j]);
+    for (std::size_t j = p - 6; j < p; ++j) c.push_back(covariance[i * p + j]);
   return testing::mahalanobis({e.end() - 6, e.end()}, c);
 }
 
@@ -91,7 +91,7 @@ TEST(Placement, CovarianceOfAPlaneIsThatOfSampling) {
     add_noise(noisy, random);
     const SolveResult r = solve(noisy, truth.intrinsics.size, known_options(truth));
     ASSERT_EQ(r.status, Status::ok) << r.reason;
-    sum += placement_chi2(truth, r);
+    sum += placement_chi2(truth, r, r.covariance_independent);
   }
   // χ² with 6 degrees of freedom: mean 6, the mean of 200 has a standard deviation of sqrt(12/200) = 0.245.
   EXPECT_NEAR(sum / trials, 6, 4 * 0.245);
@@ -115,13 +115,43 @@ TEST(Placement, UncertainIntrinsicsAreCarriedIntoTheCovariance) {
     options.tolerance_px = 100;
     const SolveResult r = solve(noisy, truth.intrinsics.size, options);
     ASSERT_NE(r.status, Status::refused) << r.reason;
-    sum += placement_chi2(truth, r);
+    sum += placement_chi2(truth, r, r.covariance_independent);
     options.known->sigma.clear();
     const SolveResult believed = solve(noisy, truth.intrinsics.size, options);
-    exact += placement_chi2(truth, believed);
+    exact += placement_chi2(truth, believed, believed.covariance_independent);
   }
   EXPECT_NEAR(sum / trials, 6, 4 * 0.245);  // as above
   EXPECT_GT(exact / trials, 100);           // believing them exact would promise ten times too much
+}
+
+// The jackknife over blocks sees what the points do, and not that the intrinsics were told wrong: those have
+// to be added, or the placement would look ten times as sure as it is.
+TEST(Placement, UncertainIntrinsicsCountBesideBlocksToo) {
+  const Device truth = usual_projector();
+  auto random = generator();
+  std::normal_distribution<double> normal;
+  Correspondences clean = near_plane(truth, 600, 2, 0, 0.2, random);
+  for (const glm::dvec2& p : clean.projector_pixels)
+    clean.cluster.push_back(std::uint32_t(p.x / 80) + 1000 * std::uint32_t(p.y / 80));
+  double sum = 0;
+  constexpr int trials = 100;
+  for (int k = 0; k < trials; ++k) {
+    Correspondences noisy = clean;
+    add_noise(noisy, random);
+    SolveOptions options = known_options(truth);
+    options.known->sigma = {4, 4, 6, 6};
+    Intrinsics& told = options.known->intrinsics;
+    told.fx += 4 * normal(random), told.fy += 4 * normal(random);
+    told.cx += 6 * normal(random), told.cy += 6 * normal(random);
+    options.tolerance_px = 100;
+    const SolveResult r = solve(noisy, truth.intrinsics.size, options);
+    ASSERT_NE(r.status, Status::refused) << r.reason;
+    ASSERT_TRUE(r.clusters_suffice);
+    sum += placement_chi2(truth, r, r.covariance);
+  }
+  // χ² with 6 degrees of freedom: the mean of 100 has a standard deviation of 0.35, and the jackknife over
+  // some 160 blocks is rough by a few percent.
+  EXPECT_NEAR(sum / trials, 6, 4 * 0.35 + 0.3);
 }
 
 TEST(Placement, APlaneThatIsFarAndSmallHasTwoPlacementsAndSaysSo) {
