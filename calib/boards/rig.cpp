@@ -101,6 +101,11 @@ std::vector<std::string> lens_terms(const std::string& word) {
 }
 
 std::string terms_text(const std::vector<std::string>& terms) {
+  if (terms.size() == 1 && is_splined(terms[0])) {
+    std::string grid = terms[0].substr(terms[0].find("_Nx=") + 4);  // 9_Ny=6_fov_x_deg=45
+    return fmt::format("splined {}x{}", grid.substr(0, grid.find('_')),
+                       grid.substr(grid.find("_Ny=") + 4, grid.find("_fov") - grid.find("_Ny=") - 4));
+  }
   return terms.empty() ? "pinhole" : fmt::format("{}", fmt::join(terms, "+"));
 }
 

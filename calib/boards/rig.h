@@ -41,7 +41,7 @@ std::vector<std::string> lens_terms(const std::string& word);
 /// model.
 bool are_splined(const std::vector<std::string>& terms);
 
-/// "pinhole" or "k1+k2".
+/// "pinhole", "k1+k2" or "splined 9x6" (Nx, Ny).
 std::string terms_text(const std::vector<std::string>& terms);
 
 struct RigModel {

@@ -44,6 +44,7 @@ TEST(RigSplines, WordsNameAModelOrLeaveTheGridToTheImage) {
   const std::string model = "LENSMODEL_SPLINED_STEREOGRAPHIC_order=3_Nx=8_Ny=7_fov_x_deg=50";
   EXPECT_EQ(lens_terms(model), std::vector<std::string>{model});
   EXPECT_EQ(model_of_terms({model}).lens_free.size(), 112u);
+  EXPECT_EQ(terms_text({model}), "splined 8x7");
   EXPECT_FALSE(are_splined(lens_terms("k1")));
   EXPECT_THAT(testing::input_error([] { lens_terms("LENSMODEL_SPLINED_STEREOGRAPHIC_order=9_Nx=8"); }),
               HasSubstr("order"));
