@@ -71,7 +71,7 @@ void validate(const BoardCapture& capture) {
   }
 }
 
-void index_poses(BoardCapture& capture) {
+void complete_table(BoardCapture& capture, const std::string& file_name) {
   std::map<int, int> index;
   for (const Sighting& s : capture.sightings) index.emplace(s.pose, 0);
   for (auto& [label, at] : index) {
@@ -79,6 +79,12 @@ void index_poses(BoardCapture& capture) {
     capture.pose_labels.push_back(label);
   }
   for (Sighting& s : capture.sightings) s.pose = index.at(s.pose);
+  capture.extent = extent_of(capture.sightings);
+  try {
+    validate(capture);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", file_name, error.what()));
+  }
 }
 
 BoardExtent extent_of(const std::vector<Sighting>& sightings) {

@@ -65,9 +65,10 @@ struct BoardCapture {
 /// by more than a tenth of the size.
 void validate(const BoardCapture& capture);
 
-/// Sightings whose `pose` is the file's own number get indices into pose_labels, which become these numbers
-/// in their order.
-void index_poses(BoardCapture& capture);
+/// Completes what a table tells: sightings whose `pose` is the file's own number get indices into
+/// pose_labels, which become these numbers in their order; the extent is that of all points. Throws
+/// InputError, beginning with the file, for what validate() refuses.
+void complete_table(BoardCapture& capture, const std::string& file_name);
 
 /// The extent of all board points in x and y.
 BoardExtent extent_of(const std::vector<Sighting>& sightings);

@@ -48,13 +48,7 @@ BoardCapture parse_correspondence_csv(std::string_view text, const std::string& 
     }
     append(line, label, capture.sightings);
   }
-  index_poses(capture);
-  capture.extent = extent_of(capture.sightings);
-  try {
-    validate(capture);
-  } catch (const InputError& error) {
-    throw InputError(fmt::format("{}: {}", file_name, error.what()));
-  }
+  complete_table(capture, file_name);
   return capture;
 }
 

@@ -53,13 +53,7 @@ BoardCapture parse_sighting_csv(std::string_view text, const std::string& file_n
                                    devices[std::size_t(s.device)].name, s.corner, s.pose));
     capture.sightings.push_back(s);
   }
-  index_poses(capture);
-  capture.extent = extent_of(capture.sightings);
-  try {
-    validate(capture);
-  } catch (const InputError& error) {
-    throw InputError(fmt::format("{}: {}", file_name, error.what()));
-  }
+  complete_table(capture, file_name);
   return capture;
 }
 

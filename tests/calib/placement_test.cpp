@@ -97,22 +97,28 @@ TEST(Placement, CovarianceOfAPlaneIsThatOfSampling) {
   EXPECT_NEAR(sum / trials, 6, 4 * 0.245);
 }
 
+// Known to 4 px of the focal lengths and 6 px of the centre, and off by as much.
+SolveOptions wrongly_told(const Device& truth, std::mt19937_64& random) {
+  SolveOptions options = known_options(truth);
+  options.tolerance_px = 100;
+  options.known->sigma = {4, 4, 6, 6};
+  Intrinsics& told = options.known->intrinsics;
+  std::normal_distribution<double> normal;
+  told.fx += 4 * normal(random), told.fy += 4 * normal(random);
+  told.cx += 6 * normal(random), told.cy += 6 * normal(random);
+  return options;
+}
+
 TEST(Placement, UncertainIntrinsicsAreCarriedIntoTheCovariance) {
   const Device truth = usual_projector();
   auto random = generator();
-  std::normal_distribution<double> normal;
   const Correspondences clean = near_plane(truth, 80, 2, 0, 0.2, random);
   double sum = 0, exact = 0;
   constexpr int trials = 200;
   for (int k = 0; k < trials; ++k) {
     Correspondences noisy = clean;
     add_noise(noisy, random);
-    SolveOptions options = known_options(truth);
-    options.known->sigma = {4, 4, 6, 6};
-    Intrinsics& told = options.known->intrinsics;
-    told.fx += 4 * normal(random), told.fy += 4 * normal(random);
-    told.cx += 6 * normal(random), told.cy += 6 * normal(random);
-    options.tolerance_px = 100;
+    SolveOptions options = wrongly_told(truth, random);
     const SolveResult r = solve(noisy, truth.intrinsics.size, options);
     ASSERT_NE(r.status, Status::refused) << r.reason;
     sum += placement_chi2(truth, r, r.covariance_independent);
@@ -129,7 +135,6 @@ TEST(Placement, UncertainIntrinsicsAreCarriedIntoTheCovariance) {
 TEST(Placement, UncertainIntrinsicsCountBesideBlocksToo) {
   const Device truth = usual_projector();
   auto random = generator();
-  std::normal_distribution<double> normal;
   Correspondences clean = near_plane(truth, 600, 2, 0, 0.2, random);
   for (const glm::dvec2& p : clean.projector_pixels)
     clean.cluster.push_back(std::uint32_t(p.x / 80) + 1000 * std::uint32_t(p.y / 80));
@@ -138,12 +143,7 @@ TEST(Placement, UncertainIntrinsicsCountBesideBlocksToo) {
   for (int k = 0; k < trials; ++k) {
     Correspondences noisy = clean;
     add_noise(noisy, random);
-    SolveOptions options = known_options(truth);
-    options.known->sigma = {4, 4, 6, 6};
-    Intrinsics& told = options.known->intrinsics;
-    told.fx += 4 * normal(random), told.fy += 4 * normal(random);
-    told.cx += 6 * normal(random), told.cy += 6 * normal(random);
-    options.tolerance_px = 100;
+    SolveOptions options = wrongly_told(truth, random);
     const SolveResult r = solve(noisy, truth.intrinsics.size, options);
     ASSERT_NE(r.status, Status::refused) << r.reason;
     ASSERT_TRUE(r.clusters_suffice);
