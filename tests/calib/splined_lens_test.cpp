@@ -50,8 +50,9 @@ TEST(SplinedLens, TheGridCoversTheImageAndStartsLikeTheLens) {
   Device splined = lean;
   splined.lens = {model, {k.begin() + 4, k.end()}};
   const LensProjection a(lean.intrinsics, lean.lens), b(lean.intrinsics, splined.lens);
-  for (double v = 0; v < 800; v += 79.9) {
-    for (double u = 0; u < 1280; u += 127.9) {
+  for (int row = 0; row <= 10; ++row) {
+    for (int column = 0; column <= 10; ++column) {
+      const double u = 127.9 * column, v = 79.9 * row;  // to the last pixel of 1280×800
       const auto ray = a.unproject({u, v});
       ASSERT_TRUE(ray);
       const auto pixel = b.project(*ray);

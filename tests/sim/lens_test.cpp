@@ -61,9 +61,9 @@ TEST(Lens, KnotsStandWhereTheirParametersAct) {
       const LensProjection moved(rig_camera, lens);
       double most = 0;
       glm::dvec2 where(0.0), step(0.0);
-      for (double y = -0.4; y <= 0.4; y += 0.01) {
-        for (double x = -0.4; x <= 0.4; x += 0.01) {
-          const glm::dvec2 u(x, y);  // u = 2·tan(θ/2): tan θ = |u|/(1 - |u|²/4)
+      for (int row = -40; row <= 40; ++row) {
+        for (int column = -40; column <= 40; ++column) {
+          const glm::dvec2 u = 0.01 * glm::dvec2(column, row);  // u = 2·tan(θ/2): tan θ = |u|/(1 - |u|²/4)
           const glm::dvec3 ray(u / (1 - glm::dot(u, u) / 4), 1);
           const glm::dvec2 d = *moved.project(ray) - *plain.project(ray);
           if (glm::length(d) > most) most = glm::length(d), where = u, step = d;
