@@ -96,7 +96,7 @@ TEST(SplinedLens, PredictedErrorIsThatOfSampling) {
   SolveOptions options;
   options.lens_model = truth.lens.model;
   double squared = 0, predicted = 0;
-  constexpr int trials = 20;
+  constexpr int trials = 8;
   for (int i = 0; i < trials; ++i) {
     Correspondences noisy = clean;
     testing::add_noise(noisy, random);
@@ -105,8 +105,8 @@ TEST(SplinedLens, PredictedErrorIsThatOfSampling) {
     squared += std::pow(error_px(truth, r.estimate, clean.world_points), 2) / trials;
     predicted += std::pow(*predicted_rms(r.estimate, r.covariance, clean.world_points), 2) / trials;
   }
-  // Some 100 parameters in each of 20 trials: the ratio of rms scatters by 1/sqrt(2·2000) = 1.6 %.
-  EXPECT_NEAR(std::sqrt(squared / predicted), 1, 0.06);
+  // Some 100 parameters in each of 8 trials: the ratio of rms scatters by 1/sqrt(2·800) = 2.5 %.
+  EXPECT_NEAR(std::sqrt(squared / predicted), 1, 0.1);
 }
 
 TEST(SplinedLens, WhereNoPointReachesItIsWeak) {

@@ -16,12 +16,12 @@ namespace {
 using testing::generator;
 using ::testing::HasSubstr;
 
-// A camera whose lens is off that of four terms by 2 px, as a spline of 4 × 4 cells, and a pinhole projector.
+// A camera whose lens is off that of four terms by 2 px, as a spline of 3 × 3 cells, and a pinhole projector.
 synthetic::BoardTruth splined_truth(int poses, std::mt19937_64& random) {
   Device camera;
   camera.intrinsics = {{1280, 1024}, 1810, 1805, 655, 500};
   camera.lens = {"LENSMODEL_OPENCV4", {-0.12, 0.05, 0.001, -0.001}};
-  const std::string model = spline_over_image(camera, 4);
+  const std::string model = spline_over_image(camera, 3);
   const std::vector<double> k = spline_like(camera, model);
   synthetic::BoardScene scene;
   scene.poses = poses;
@@ -50,10 +50,10 @@ TEST(RigSplines, WordsNameAModelOrLeaveTheGridToTheImage) {
               HasSubstr("order"));
 }
 
-// Seven boards over the image; what is compared is the camera's direction of each pixel that was seen.
+// Six boards over the image; what is compared is the camera's direction of each pixel that was seen.
 TEST(RigSplines, ASplineFitsWhereFourTermsDoNot) {
   auto random = generator();
-  const synthetic::BoardTruth truth = splined_truth(7, random);
+  const synthetic::BoardTruth truth = splined_truth(6, random);
   const BoardCapture noisy = synthetic::with_noise(truth.capture, random);
   const BoardCalibration lean = calibrate_boards(noisy, lenses("opencv4"));
   const BoardCalibration rich = calibrate_boards(noisy, lenses("splined"));
@@ -79,7 +79,7 @@ TEST(RigSplines, TheTrueGridIsRecoveredWithinItsSigmas) {
 
 TEST(RigSplines, MrcalsOwnOptimisationAgrees) {
   auto random = generator();
-  const synthetic::BoardTruth truth = splined_truth(7, random);
+  const synthetic::BoardTruth truth = splined_truth(4, random);
   BoardOptions options = lenses(truth.model.devices[0].lens_model);
   options.terms[1] = options.terms[0];
   const BoardCalibration c = calibrate_boards(synthetic::with_noise(truth.capture, random), options);
