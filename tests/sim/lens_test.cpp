@@ -117,8 +117,9 @@ TEST(Lens, UnprojectInvertsProjectAndAgreesWithMrcal) {
     std::vector<double> intrinsics{rig_projector.fx, rig_projector.fy, rig_projector.cx, rig_projector.cy};
     intrinsics.insert(intrinsics.end(), model.parameters.begin(), model.parameters.end());
     std::optional<glm::dvec3> neighbour;
-    for (double v = -0.5; v < 600; v += 50) {
-      for (double u = -0.5; u < 800; u += 50) {
+    for (int row = 0; row <= 12; ++row) {
+      for (int column = 0; column <= 16; ++column) {
+        const double u = 50 * column - 0.5, v = 50 * row - 0.5;
         const auto direction = lens.unproject({u, v}, neighbour);
         ASSERT_TRUE(direction) << model.model << " " << u << " " << v;
         EXPECT_NEAR(glm::length(*lens.project(*direction) - glm::dvec2(u, v)), 0,
