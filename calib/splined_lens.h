@@ -23,9 +23,8 @@ constexpr double spline_departure = 0.02;
 /// of them over the wider side. Throws InputError where the lens maps no ray to the image's border.
 std::string spline_over_image(const Device& device, int across = 6);
 
-/// fx, fy, cx, cy of the device, and the knots whose Δu is that of its lens at the knot; beyond the image
-/// that of the image's nearest place on the way to the axis. Within some 5e-3 of the focal length of the
-/// lens, for a start.
+/// fx, fy, cx, cy of the device, and the knots whose Δu is that of its lens at the image's pixel nearest to
+/// the knot's own. Within some 5e-3 of the focal length of the lens, for a start.
 std::vector<double> spline_like(const Device& device, const std::string& splined_model);
 
 /// Holds the core (to 1e-6 px) and each knot to `parameters` within spline_departure.
