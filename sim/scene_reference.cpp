@@ -69,7 +69,8 @@ std::string scene_reference_markdown() {
                           "`name`, `ambient_lx` and `believe_truth` stand before the first table.", true);
   std::string page =
       "# The scene file\n"
-      "<!-- Made by `laterna info --scene-reference > data/scene-reference.md`; edit sim/scene_fields.h. "
+      "<!-- Made by `laterna info --scene-reference > data/scene-reference.md`; edit sim/fields and "
+      "sim/scene_fields.h. "
       "-->\n\n"
       "A scene is a TOML file. Lengths are metres and angles radians unless a key says otherwise. Pixels "
       "have\n"

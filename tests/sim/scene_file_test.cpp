@@ -3,23 +3,24 @@
 #include "sim/device_spec.h"
 #include "sim/error.h"
 #include "sim/field_text.h"
-#include "sim/ply.h"
-#include "sim/self_contained.h"
-#include "sim/shapes.h"
-#include "tests/testing.h"
+#include "tests/sim/scene_text.h"
 
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <fstream>
-#include <numbers>
 
 namespace laterna {
 namespace {
 
 using ::testing::AllOf;
+using testing::device_lines;
+using testing::error_of;
 using ::testing::HasSubstr;
+using testing::mesh_line;
+using testing::replaced;
 using ::testing::StartsWith;
+using testing::with_device;
+using testing::with_mesh;
 
 // The issue's own example: its keys are fixed. The `file` is on line 2.
 const char* const fixed_keys = R"([[mesh]]
@@ -40,22 +41,6 @@ far = 20.0
 [patterns]
 kind = "gray"
 )";
-
-const char* const mesh_line = "[[mesh]]\nshape = \"plane\"\n";
-const char* const device_lines =
-    "size = [640, 480]\nfx = 500\nposition = [0, 0, 2]\nlook_at = [0, 0, 0]\nup = [0, 1, 0]\n";
-
-std::string with_mesh(const std::string& lines) { return "[[mesh]]\nshape = \"plane\"\n" + lines; }
-std::string with_device(const std::string& lines) { return std::string(mesh_line) + "[[camera]]\n" + lines; }
-std::string error_of(const std::string& text) {
-  return testing::input_error([&] { parse_scene(text, "scene.toml"); });
-}
-/// The text with `from`, which must be there, replaced.
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const auto at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return text.replace(at, from.size(), to);
-}
 
 TEST(SceneFile, FixedKeysAreReadAsTheyStand) {
   const SceneSpec scene = parse_scene(fixed_keys, "scene.toml");
@@ -235,177 +220,6 @@ TEST(SceneFile, MeshPlacementInOneWay) {
               HasSubstr("singular"));
 }
 
-TEST(SceneFile, IntrinsicsInExactlyOneWay) {
-  const std::string lines = device_lines;
-  EXPECT_THAT(
-      error_of(with_device(lines + "throw_ratio = 1\n")),
-      StartsWith("scene.toml:3: [[camera]]: intrinsics are given in two ways, by fx and by throw_ratio"));
-  EXPECT_THAT(error_of(with_device(lines + "cameramodel = \"c\"\n")), HasSubstr("by fx and by cameramodel"));
-  EXPECT_THAT(error_of(with_device(replaced(lines, "fx = 500", "fov_y_deg = 30\nfov_x_deg = 30"))),
-              HasSubstr("by fov_y_deg and by fov_x_deg"));
-  EXPECT_THAT(error_of(with_device(replaced(lines, "fx = 500\n", ""))), HasSubstr("intrinsics are missing"));
-  EXPECT_THAT(error_of(with_device(replaced(lines, "fx = 500", "cx = 500"))),
-              HasSubstr("cx is given without fx"));
-  EXPECT_THAT(error_of(with_device(replaced(lines, "fx = 500", "lens_shift = [0, 1]"))),
-              HasSubstr("lens_shift is given without throw_ratio"));
-  EXPECT_THAT(error_of(with_device(lines + "aspect = 2\n")), HasSubstr("aspect is given without"));
-  EXPECT_THAT(error_of(with_device(replaced(lines, "size = [640, 480]\n", ""))),
-              HasSubstr("size is missing"));
-  EXPECT_THAT(error_of(with_device("cameramodel = \"c\"\nsize = [1, 1]\n")),
-              HasSubstr("size is given beside"));
-  EXPECT_THAT(error_of(with_device("cameramodel = \"c\"\nlens = { parameters = [1] }\n")),
-              HasSubstr("lens is given beside"));
-}
-
-TEST(SceneFile, PlacementInExactlyOneWay) {
-  const std::string k = "size = [640, 480]\nfx = 500\n";
-  EXPECT_THAT(error_of(with_device(k)), StartsWith("scene.toml:3: [[camera]]: placement is missing"));
-  EXPECT_THAT(error_of(with_device(k + "position = [0, 0, 1]\n")),
-              HasSubstr("position is given without look_at"));
-  EXPECT_THAT(error_of(with_device(k + "look_at = [0, 0, 1]\n")),
-              HasSubstr("look_at is given without position"));
-  EXPECT_THAT(error_of(with_device(k + "quaternion_wxyz = [1, 0, 0, 0]\n")),
-              HasSubstr("without translation"));
-  EXPECT_THAT(error_of(with_device(std::string(device_lines) + "translation = [1, 0, 0]\n")),
-              HasSubstr("translation is given without"));
-  EXPECT_THAT(error_of(with_device(std::string(device_lines) + "rotation_vector_rad = [1, 0, 0]\n")),
-              HasSubstr("placement is given in two ways, by position and by rotation_vector_rad"));
-  EXPECT_THAT(error_of(with_device("cameramodel = \"c\"\nposition = [1, 0, 0]\nlook_at = [0, 0, 0]\n")),
-              HasSubstr("by position and by cameramodel"));
-}
-
-TEST(SceneFile, PlacementsThatAreNone) {
-  const std::string k = "size = [640, 480]\nfx = 500\n", camera = "scene.toml:3: [[camera]]: ";
-  EXPECT_THAT(error_of(with_device(k + "device_from_world = [[1,0,0,0],[0,1,0,0],[0,0,1.1,0]]\n")),
-              AllOf(StartsWith(camera), HasSubstr("device_from_world"), HasSubstr("no rotation")));
-  EXPECT_THAT(error_of(with_device(k + "device_from_world = [[1,0,0,0],[0,1,0,0],[0,0,-1,0]]\n")),
-              AllOf(StartsWith(camera), HasSubstr("reflection")));
-  EXPECT_THAT(error_of(with_device(k + "position = [0,0,1]\nlook_at = [0,0,1]\n")),
-              AllOf(StartsWith(camera), HasSubstr("look_at")));
-  EXPECT_THAT(error_of(with_device(k + "position = [0,0,1]\nlook_at = [0,0,0]\n")), HasSubstr("parallel"));
-  EXPECT_THAT(error_of(with_device(k + "position = [0,0,1]\nlook_at = [0,1,0]\nup = [0,0,0]\n")),
-              HasSubstr("parallel"));
-  for (const char* q : {"[0, 0, 0, 0]", "[1e-170, 0, 0, 0]"})
-    EXPECT_THAT(error_of(with_device(k + "translation = [0,0,1]\nquaternion_wxyz = " + q + "\n")),
-                StartsWith(camera));
-}
-
-TEST(SceneFile, UnusableDevices) {
-  const std::string lines = device_lines, camera = "scene.toml:3: [[camera]]: ";
-  EXPECT_EQ(error_of(with_device(lines + "near = 5\nfar = 1\n")),
-            camera + "light planes: near is 5 and far is 1, expected near < far");
-  EXPECT_THAT(error_of(with_device(lines + "near = 0\n")),
-              StartsWith("scene.toml:9: near in [[camera]] is 0"));
-  EXPECT_THAT(error_of(with_device(replaced(lines, "fx = 500", "fx = 0"))),
-              StartsWith("scene.toml:5: fx in"));
-  EXPECT_THAT(error_of(with_device(replaced(lines, "fx = 500", "fx = 1e-5"))),
-              AllOf(StartsWith(camera), HasSubstr("singular")));
-  EXPECT_THAT(error_of(with_device(replaced(lines, "fx = 500", "fov_x_deg = 180"))),
-              HasSubstr("fov_x_deg in"));
-  EXPECT_THAT(error_of(with_device(lines + "lens = { model = \"FISH\" }\n")),
-              AllOf(StartsWith(camera), HasSubstr("\"FISH\"")));
-  EXPECT_THAT(error_of(with_device(lines + "lens = { model = \"LENSMODEL_OPENCV4\", parameters = [1] }\n")),
-              AllOf(StartsWith(camera), HasSubstr("found 1 parameters, expected 4")));
-  // mrcal itself would abort on this one.
-  EXPECT_THAT(
-      error_of(with_device(
-          lines +
-          "lens = { model = \"LENSMODEL_SPLINED_STEREOGRAPHIC_order=5_Nx=4_Ny=4_fov_x_deg=100\" }\n")),
-      AllOf(StartsWith(camera), HasSubstr("expected order 2 or 3")));
-  EXPECT_THAT(error_of(with_device(lines + "sensor = { bit_depth = 17 }\n")),
-              StartsWith("scene.toml:9: bit_depth in sensor of [[camera]] is 17"));
-}
-
-TEST(SceneFile, NamesOfDevicesAreUnique) {
-  const std::string camera = std::string("[[camera]]\n") + device_lines;
-  const SceneSpec two = with_names(parse_scene(with_mesh(camera + camera), "s"));
-  EXPECT_EQ(two.cameras[0].device.name, "camera1");
-  EXPECT_EQ(two.cameras[1].device.name, "camera2");
-  EXPECT_EQ(with_names(parse_scene(with_mesh(camera), "s")).cameras[0].device.name, "camera");
-  const std::string named = camera + "name = \"a\"\n";
-  EXPECT_EQ(error_of(with_mesh(named + named)),
-            "scene.toml: [[camera]] \"a\": the name is taken by another device, expected one of its own");
-  EXPECT_THAT(error_of(with_mesh(named + replaced(named, "camera", "projector"))), HasSubstr("taken"));
-  EXPECT_THAT(error_of(with_mesh(camera + camera + "name = \"camera1\"\n")), HasSubstr("taken"));
-}
-
-TEST(SceneFile, WaysToSayTheSameDevice) {
-  const auto device = [](const std::string& intrinsics, const std::string& placement) {
-    const std::string text = with_device("size = [641, 481]\n" + intrinsics + placement);
-    return device_of(parse_scene(text, "s").cameras[0].device, {}, "camera");
-  };
-  const std::string looking = "position = [0, -2, 0]\nlook_at = [0, 0, 0]\n";
-  // tan 45° = 1: fx = W/2. The world's z is up, so that y of the device is -z.
-  const Device reference =
-      device("fx = 320.5\ncx = 320\ncy = 240\n", "device_from_world = [[1,0,0,0],[0,0,-1,0],[0,1,0,2]]\n");
-  const std::string rotation_by_hand =
-      "rotation_vector_rad = [1.5707963267948966, 0, 0]\ntranslation = [0, 0, 2]\n";
-  for (const Device& other :
-       {device("fx = 320.5\n", looking), device("throw_ratio = 0.5\n", looking),
-        device("fov_x_deg = 90\n", looking),
-        device("fov_y_deg = 73.7683931346247\naspect = 1.3326403326403327\n", rotation_by_hand),
-        device("fx = 320.5\n", "quaternion_wxyz = [3, 3, 0, 0]\ntranslation = [0, 0, 2]\n")}) {
-    // 1e-8: the vertical angle above is given to 12 digits.
-    EXPECT_NEAR(other.intrinsics.fx, reference.intrinsics.fx, 1e-8);
-    EXPECT_NEAR(other.intrinsics.fy, reference.intrinsics.fy, 1e-8);
-    EXPECT_NEAR(other.intrinsics.cx, 320, 1e-12);
-    EXPECT_NEAR(other.intrinsics.cy, 240, 1e-12);
-    for (int i = 0; i < 3; ++i) {
-      // 1e-15: a few roundings of numbers near 1.
-      EXPECT_NEAR(glm::distance(other.device_from_world.rotation[i], reference.device_from_world.rotation[i]),
-                  0, 1e-15);
-    }
-    EXPECT_NEAR(glm::distance(other.device_from_world.translation, glm::dvec3(0, 0, 2)), 0, 1e-15);
-  }
-}
-
-TEST(SceneFile, FileToWorldByHand) {
-  MeshSpec mesh{.file = "x.ply"};
-  const auto moved = [&](const glm::dvec3& p) {
-    return glm::dvec3(world_from_file(mesh) * glm::dvec4(p, 1));
-  };
-  EXPECT_EQ(moved({1, 2, 3}), glm::dvec3(1, 2, 3));
-  mesh.up = UpAxis::y;
-  EXPECT_EQ(moved({1, 2, 3}), glm::dvec3(1, -3, 2));
-  mesh.unit = "mm";
-  mesh.scale = 2000;
-  EXPECT_NEAR(glm::distance(moved({1, 2, 3}), glm::dvec3(2, -6, 4)), 0, 1e-14);  // rounding
-  mesh.translate = {10, 20, 30};
-  EXPECT_NEAR(glm::distance(moved({1, 2, 3}), glm::dvec3(12, 14, 34)), 0, 1e-14);
-  mesh = {.file = "x.ply", .rotate_deg = {90, 0, 90}};  // x → y; y → z; z → x: x first, z last
-  EXPECT_NEAR(glm::distance(moved({1, 0, 0}), glm::dvec3(0, 1, 0)), 0, 1e-15);
-  EXPECT_NEAR(glm::distance(moved({0, 1, 0}), glm::dvec3(0, 0, 1)), 0, 1e-15);
-  EXPECT_NEAR(glm::distance(moved({0, 0, 1}), glm::dvec3(1, 0, 0)), 0, 1e-15);
-  mesh = {.file = "x.ply",
-          .unit = "mm",
-          .world_from_object = Matrix3x4{{{0, 2, 0, 5}, {1, 0, 0, 6}, {0, 0, 1, 7}}}};
-  EXPECT_NEAR(glm::distance(moved({1000, 2000, 3000}), glm::dvec3(9, 7, 10)), 0, 1e-14);
-}
-
-TEST(SceneFile, BytesThatNoParserShouldSee) {
-  EXPECT_THAT(error_of(std::string("ambient_lx = 1\nname = \"a\0b\"", 27)),
-              AllOf(StartsWith("scene.toml:2: "), HasSubstr("0x00")));
-  EXPECT_THAT(error_of("name = \"\xff\"\n"), AllOf(StartsWith("scene.toml:1: "), HasSubstr("UTF-8")));
-  EXPECT_THAT(error_of("name = \"\xc0\xaf\"\n"), HasSubstr("UTF-8"));  // overlong
-  for (const char* deep : {"[", "{a=", "[{a="}) {
-    std::string text = "\nmesh = ";
-    for (int i = 0; i < 100000; ++i) text += deep;
-    EXPECT_THAT(error_of(text), AllOf(StartsWith("scene.toml:2: "), HasSubstr("nest deeper than 64")));
-  }
-  std::string dotted = "a";
-  for (int i = 0; i < 100000; ++i) dotted += ".a";
-  for (const std::string& text : {dotted + " = 1\n", "[" + dotted + "]\n", "a = { " + dotted + " = 1 }\n"})
-    EXPECT_THAT(error_of(text), HasSubstr("nest deeper than 64"));
-  EXPECT_THAT(error_of(std::string(17 << 20, ' ')), HasSubstr("expected at most"));
-}
-
-TEST(SceneFile, BracketsAndDotsInTextAreOnlyText) {
-  const std::string many = std::string(200, '[') + std::string(200, '.');
-  const std::string text = "# " + many + "\nname = \"" + many + "\" # " + many + "\n" +
-                           with_mesh("name = '''" + many.substr(170, 60) + "'''\n");
-  EXPECT_EQ(parse_scene(text, "s").name, many);
-}
-
 TEST(SceneFile, SyntaxErrorsHaveALine) {
   EXPECT_THAT(error_of("ambient_lx = 1\nname = \n"), StartsWith("scene.toml:2: "));
   EXPECT_THAT(error_of("name = \"a\"\nname = \"b\"\n"), StartsWith("scene.toml:2: "));
@@ -450,112 +264,6 @@ TEST(SceneFile, BytesFlippedAtRandomAreReadOrRefused) {
   }
   EXPECT_GT(read, 100);  // digits and names may change
   EXPECT_GT(refused, 1000);
-}
-
-TEST(SceneFile, BuildLoadsMeshesBesideTheScene) {
-  const testing::ScratchFolder folder;
-  const Mesh plane = make_shape({.shape = "plane", .detail = 2});
-  testing::write_text(folder / "scene.ply", ply_bytes(plane));
-  const Scene scene = load_scene(testing::write_text(folder / "scene.toml", fixed_keys));
-  ASSERT_EQ(scene.objects.size(), 1u);
-  EXPECT_EQ(scene.objects[0].name, "scene");
-  EXPECT_EQ(scene.objects[0].mesh.positions, plane.positions);
-  EXPECT_EQ(scene.objects[0].world_from_object, glm::dmat4(1.0));
-  EXPECT_EQ(scene.projectors.at(0).device.name, "left");
-  EXPECT_TRUE(scene.cameras.empty());
-}
-
-TEST(SceneFile, BuildRefusesBadFiles) {
-  const testing::ScratchFolder folder;
-  const auto load_error = [&](const std::string& text) {
-    const auto path = testing::write_text(folder / "scene.toml", text);
-    return testing::input_error([&] { load_scene(path); });
-  };
-  EXPECT_THAT(load_error("[[mesh]]\nfile = \"none.ply\"\n"),
-              AllOf(StartsWith((folder / "scene.toml").string()), HasSubstr("[[mesh]] \"none\""),
-                    HasSubstr("none.ply")));
-  testing::write_text(folder / "broken.ply", "ply\nformat ascii 1.0\nelement vertex 3\n");
-  EXPECT_THAT(load_error("[[mesh]]\nfile = \"broken.ply\"\n"), HasSubstr("broken.ply"));
-  EXPECT_THAT(load_error("[[mesh]]\nfile = \".\"\n"), HasSubstr("[[mesh]]"));
-  EXPECT_THAT(load_error("[[mesh]]\nshape = \"torus\"\n"), HasSubstr("torus"));
-  EXPECT_THAT(load_error(with_mesh("albedo_map = \"none.png\"\n")), HasSubstr("none.png"));
-  EXPECT_THAT(load_error(with_mesh("translate = [1e9, 0, 0]\n")), HasSubstr("a vertex comes to lie"));
-  EXPECT_THAT(load_error(with_device("cameramodel = \"none.cameramodel\"\n")),
-              AllOf(HasSubstr("[[camera]] \"camera\""), HasSubstr("none.cameramodel")));
-  EXPECT_THAT(testing::input_error([&] { load_scene(folder / "none.toml"); }),
-              StartsWith((folder / "none.toml").string() + ": cannot be opened: No such file"));
-  EXPECT_THAT(testing::input_error([&] { load_scene(folder.path()); }), HasSubstr("it is a folder"));
-}
-
-TEST(SceneFile, AlbedoMapsAreLinearAndShared) {
-  const testing::ScratchFolder folder;
-  write_picture(folder / "map.png", Image<std::uint8_t>(4, 2, 188));
-  const std::string mapped = with_mesh("albedo_map = \"map.png\"\n");
-  const auto path = testing::write_text(folder / "scene.toml",
-                                        mapped + mapped + mapped + "albedo_map_encoding = \"linear\"\n");
-  const Scene scene = load_scene(path);
-  const auto value = [&](int i) { return (*scene.objects.at(i).albedo_map)(3, 1); };
-  // ((188/255 + 0.055)/1.055)^2.4 by hand; 1e-6: floats.
-  EXPECT_NEAR(value(0), 0.502886, 1e-6);
-  EXPECT_NEAR(value(2), 188 / 255.0, 1e-6);
-  EXPECT_EQ(scene.objects[0].albedo_map, scene.objects[1].albedo_map);
-  write_picture(folder / "map.exr", Image<float>(4, 2, 1.5f));
-  const auto bright = testing::write_text(folder / "b.toml", with_mesh("albedo_map = \"map.exr\"\n"));
-  EXPECT_THAT(testing::input_error([&] { load_scene(bright); }),
-              HasSubstr("a pixel is 1.5, expected 0 to 1"));
-}
-
-TEST(SceneFile, AlbedoMapsNeedTextureCoordinates) {
-  const testing::ScratchFolder folder;
-  write_picture(folder / "map.png", Image<std::uint8_t>(4, 2, 188));
-  Mesh plane = make_shape({.shape = "plane", .size = {1, 1, 1}, .detail = 2});
-  plane.texture_coordinates.clear();
-  testing::write_text(folder / "a.ply", ply_bytes(plane));
-  const auto path =
-      testing::write_text(folder / "s.toml", "[[mesh]]\nfile = \"a.ply\"\nalbedo_map = \"map.png\"\n");
-  EXPECT_THAT(testing::input_error([&] { load_scene(path); }), HasSubstr("has no texture coordinates"));
-}
-
-TEST(SceneFile, BuildChecksASpecificationMadeInCode) {
-  SceneSpec spec;
-  spec.meshes.push_back({.shape = "plane"});
-  spec.cameras.push_back({.device = {.size = glm::ivec2(10, 10),
-                                     .fx = std::nan(""),
-                                     .position = glm::dvec3(1),
-                                     .look_at = glm::dvec3(0)},
-                          .sensor = {}});
-  EXPECT_THAT(testing::input_error([&] { build_scene(spec, {}); }),
-              StartsWith("[[camera]] \"camera\": intrinsics"));
-}
-
-TEST(SceneFile, ASelfContainedCopyCanBeMoved) {
-  const testing::ScratchFolder folder;
-  std::filesystem::create_directories(folder / "from/sub");
-  std::filesystem::create_directories(folder / "to");
-  testing::write_text(folder / "from/sub/a.ply", ply_bytes(make_shape({.shape = "sphere", .detail = 3})));
-  testing::write_text(folder / "from/c.cameramodel",
-                      "{ 'lensmodel': 'LENSMODEL_PINHOLE', 'intrinsics': [500, 510, 320.25, 240.125],\n"
-                      "'extrinsics': [0.1, 0.2, 0.3, 1, 2, 3], 'imagersize': [640, 480] }\n");
-  const auto path = testing::write_text(folder / "from/scene.toml",
-                                        "[[mesh]]\nfile = \"sub/a.ply\"\nunit = \"cm\"\nup = \"y\"\n" +
-                                            with_device("cameramodel = \"c.cameramodel\"\n"));
-  const Scene original = load_scene(path);
-  const SceneSpec spec = read_scene_spec(path);
-  const SceneSpec copied = write_self_contained(spec, original, path.parent_path(), folder / "to");
-  EXPECT_EQ(read_scene_spec(folder / "to/scene.toml"), copied);
-  std::filesystem::remove_all(folder / "from");
-  std::filesystem::rename(folder / "to", folder / "moved");
-  const Scene moved = load_scene(folder / "moved/scene.toml");
-  ASSERT_EQ(moved.objects.size(), 2u);
-  for (std::size_t i = 0; i < 2; ++i) {
-    EXPECT_EQ(moved.objects[i].name, original.objects[i].name);
-    EXPECT_EQ(moved.objects[i].mesh.positions, original.objects[i].mesh.positions);
-    EXPECT_EQ(moved.objects[i].mesh.triangles, original.objects[i].mesh.triangles);
-    EXPECT_EQ(moved.objects[i].world_from_object, original.objects[i].world_from_object);
-  }
-  EXPECT_EQ(moved.cameras.at(0).device.device_from_world.rotation,
-            original.cameras.at(0).device.device_from_world.rotation);
-  EXPECT_EQ(moved.cameras[0].device.intrinsics.cy, 240.125);
 }
 
 TEST(SceneFile, OverridesSetKeysByPath) {
