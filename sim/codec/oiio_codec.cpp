@@ -1,4 +1,5 @@
 // The module laterna_pictures.so: all that meets OpenImageIO.
+#include "sim/codec/exr_header.h"
 #include "sim/error.h"
 #include "sim/image_codec.h"
 
@@ -157,6 +158,7 @@ std::unique_ptr<OIIO::ImageInput> open(const fs::path& path) {
   const fs::file_status status = fs::status(path, ignored);
   if (!fs::exists(status)) refuse(path, "no such file, expected a picture");
   if (!fs::is_regular_file(status)) refuse(path, "is no file, expected a picture");
+  check_exr_headers(path);
   OIIO::ImageSpec config;
   config.attribute("oiio:UnassociatedAlpha", 1);  // colours as they are in the file
   auto input = OIIO::ImageInput::open(path.string(), &config);
