@@ -6,6 +6,7 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <array>
 
 namespace laterna {
 
@@ -25,21 +26,19 @@ struct Inflater {
 /// Unpacks one member from the front of `packed` onto the end of `content`.
 void unpack_member(std::string_view& packed, std::string& content, const std::string& name,
                    std::size_t limit_bytes) {
-  constexpr std::size_t chunk = std::size_t(1) << 20;
+  std::array<char, std::size_t{1} << 16> chunk;
   Inflater inflater;
   z_stream& z = inflater.stream;
   int status = Z_OK;
   while (status != Z_STREAM_END) {
-    const std::size_t filled = content.size();
-    content.resize(filled + chunk);
     z.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(packed.data()));  // zlib does not write to it
-    z.avail_in = uInt(std::min(packed.size(), chunk));
-    z.next_out = reinterpret_cast<Bytef*>(content.data() + filled);
-    z.avail_out = uInt(chunk);
+    z.avail_in = uInt(std::min(packed.size(), chunk.size()));
+    z.next_out = reinterpret_cast<Bytef*>(chunk.data());
+    z.avail_out = uInt(chunk.size());
     const uInt given = z.avail_in;
     status = inflate(&z, Z_NO_FLUSH);
     packed.remove_prefix(given - z.avail_in);
-    content.resize(filled + chunk - z.avail_out);
+    content.append(chunk.data(), chunk.size() - z.avail_out);
     if (status == Z_MEM_ERROR) throw std::bad_alloc();
     if (status == Z_BUF_ERROR || (status == Z_OK && packed.empty() && z.avail_out > 0))
       throw InputError(name + ": the gzip stream ends early: the file is truncated");

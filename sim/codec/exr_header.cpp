@@ -4,12 +4,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
 #include <cstring>
 #include <fstream>
 #include <string>
+#include <string_view>
 
 namespace laterna {
 
@@ -22,6 +24,36 @@ static_assert(std::endian::native == std::endian::little, "numbers are read as O
 constexpr std::uint32_t magic = 20000630, multi_part = 0x1000;
 constexpr std::size_t longest_name = 255;
 constexpr std::int64_t most_lines_of_a_piece = 256, most_tile_values = std::int64_t{1} << 27;
+
+/// Types whose values OpenEXR reads without a look at the claimed size.
+struct FixedType {
+  std::string_view name;
+  int bytes;
+};
+constexpr auto fixed_types = std::to_array<FixedType>({{"box2i", 16},
+                                                       {"box2f", 16},
+                                                       {"chromaticities", 32},
+                                                       {"compression", 1},
+                                                       {"deepImageState", 1},
+                                                       {"double", 8},
+                                                       {"envmap", 1},
+                                                       {"float", 4},
+                                                       {"int", 4},
+                                                       {"keycode", 28},
+                                                       {"lineOrder", 1},
+                                                       {"m33f", 36},
+                                                       {"m33d", 72},
+                                                       {"m44f", 64},
+                                                       {"m44d", 128},
+                                                       {"rational", 8},
+                                                       {"tiledesc", 9},
+                                                       {"timecode", 8},
+                                                       {"v2i", 8},
+                                                       {"v2f", 8},
+                                                       {"v2d", 16},
+                                                       {"v3i", 12},
+                                                       {"v3f", 12},
+                                                       {"v3d", 24}});
 
 /// What one part's header claims, as far as OpenEXR allocates by it.
 struct Claim {
@@ -42,7 +74,8 @@ class Headers {
 
  private:
   [[noreturn]] void refuse(const std::string& reason) const {
-    throw InputError(fmt::format("{}: cannot be read as a picture: its OpenEXR header {}", path_.string(), reason));
+    throw InputError(
+        fmt::format("{}: cannot be read as a picture: its OpenEXR header {}", path_.string(), reason));
   }
 
   template <class T>
@@ -69,26 +102,58 @@ class Headers {
       const auto begin = std::int64_t(file_.tellg());
       if (size < 0 || size > bytes_ - begin)
         refuse(fmt::format("claims {} bytes for \"{}\", the file has {} more", size, key, bytes_ - begin));
-      take(key, type, size, claim);
+      if (const std::int64_t used = bytes_of(key, type, size, claim); used != size)
+        refuse(fmt::format("claims {} bytes for \"{}\", a {} of {} bytes", size, key, type, used));
       file_.seekg(begin + size);
     }
     check(claim);
   }
 
-  void take(const std::string& key, const std::string& type, std::int32_t size, Claim& claim) {
-    if (type == "box2i" && size >= 16 && key == "dataWindow") {
+  /// How many bytes OpenEXR will read as the value, whatever size the file claims for it.
+  std::int64_t bytes_of(const std::string& key, const std::string& type, std::int32_t size, Claim& claim) {
+    for (const FixedType& fixed : fixed_types)
+      if (type == fixed.name) return take(key, type, fixed.bytes, size, claim);
+    if (type == "chlist") return channel_list(claim);
+    if (type == "stringvector") return string_list(size);
+    if (type != "preview") return size;
+    if (size < 8) return 8;
+    const auto extent = number<std::array<std::uint32_t, 2>>();
+    return std::int64_t(8 + 4 * std::min<std::uint64_t>(std::uint64_t{extent[0]} * extent[1], 1u << 31));
+  }
+
+  std::int64_t take(const std::string& key, const std::string& type, int bytes, std::int32_t size,
+                    Claim& claim) {
+    if (bytes != size) return bytes;
+    if (type == "box2i" && key == "dataWindow") {
       const auto box = number<std::array<std::int32_t, 4>>();
       claim.width = std::int64_t{box[2]} - box[0] + 1;
       claim.height = std::int64_t{box[3]} - box[1] + 1;
-    } else if (type == "tiledesc" && size >= 8) {
+    } else if (type == "tiledesc") {
       const auto tile = number<std::array<std::uint32_t, 2>>();
       claim.tile_width = tile[0], claim.tile_height = tile[1];
-    } else if (type == "chlist") {
-      while (!name().empty()) {
-        file_.seekg(16, std::ios::cur);
-        ++claim.channels;
-      }
     }
+    return bytes;
+  }
+
+  std::int64_t channel_list(Claim& claim) {
+    std::int64_t bytes = 1;
+    for (std::string channel = name(); !channel.empty(); channel = name()) {
+      number<std::array<char, 16>>();
+      bytes += std::int64_t(channel.size()) + 17;
+      ++claim.channels;
+    }
+    return bytes;
+  }
+
+  std::int64_t string_list(std::int32_t size) {
+    std::int64_t bytes = 0;
+    while (bytes < size) {
+      const auto length = number<std::int32_t>();
+      if (length < 0 || length > size) return bytes + 4 + std::uint32_t(length);
+      file_.seekg(length, std::ios::cur);
+      bytes += 4 + length;
+    }
+    return bytes;
   }
 
   void check(const Claim& claim) const {

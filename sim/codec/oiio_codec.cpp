@@ -18,9 +18,11 @@ namespace {
 
 constexpr std::int64_t most_pixels = std::int64_t{1} << 30;
 
-/// Threads are started in sim/parallel.h alone: OpenImageIO gets none of its own.
+/// Threads are started in sim/parallel.h alone: OpenImageIO gets none of its own. A file is what its ending
+/// says: bytes that are not are refused by one reader, and not shown to all of them.
 void start_oiio() {
-  static const bool started = OIIO::attribute("threads", 1) && OIIO::attribute("exr_threads", -1);
+  static const bool started = OIIO::attribute("threads", 1) && OIIO::attribute("exr_threads", -1) &&
+                              OIIO::attribute("try_all_readers", 0);
   (void)started;
 }
 

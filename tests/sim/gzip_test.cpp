@@ -25,6 +25,12 @@ TEST(Gzip, UnpacksOneMemberOrSeveral) {
   EXPECT_EQ(gunzip(packed + packed, "a.gz"), "laternalaterna");
 }
 
+TEST(Gzip, UnpacksManySmallMembers) {
+  std::string many, expected;
+  for (int i = 0; i < 5000; ++i) many += packed, expected += "laterna";
+  EXPECT_EQ(gunzip(many, "a.gz"), expected);
+}
+
 TEST(Gzip, RefusesAStreamCutAtAnyByte) {
   for (std::size_t size = 0; size < packed.size(); ++size)
     EXPECT_EQ(refusal(packed.substr(0, size)), "a.gz: the gzip stream ends early: the file is truncated")

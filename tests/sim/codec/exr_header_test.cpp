@@ -49,6 +49,13 @@ TEST(ExrHeader, AttributesLargerThanTheFile) {
   EXPECT_THAT(error_of(changed("channels", "chlist", -1)), HasSubstr("claims -1 bytes for \"channels\""));
 }
 
+TEST(ExrHeader, AttributesOfAnotherSizeThanTheirTypeTakes) {
+  EXPECT_THAT(error_of(changed("dataWindow", "box2i", 15)),
+              HasSubstr("claims 15 bytes for \"dataWindow\", a box2i of 16"));
+  EXPECT_THAT(error_of(changed("channels", "chlist", 5)),
+              HasSubstr("claims 5 bytes for \"channels\", a chlist of "));
+}
+
 TEST(ExrHeader, WindowsThatNoFileHolds) {
   EXPECT_THAT(error_of(changed("dataWindow", "box2i", 16, {0, 0, 1 << 20, 1})),
               HasSubstr("claims lines of 1048577 pixels of 1 channels, expected at most 524288 values"));
