@@ -222,9 +222,10 @@ class Reader {
       fail(fmt::format("\"{}\": focal length and apertures are above 0", prim.name));
     Device device;
     device.name = prim.name;
-    device.intrinsics = {size, f / w * size.x, f / h * size.y,
-                         (size.x - 1) / 2.0 - number(prim, "horizontalApertureOffset", 0) / w * size.x,
-                         (size.y - 1) / 2.0 + number(prim, "verticalApertureOffset", 0) / h * size.y};
+    const double s = 0.5 - number(prim, "horizontalApertureOffset", 0) / w,
+                 t = 0.5 - number(prim, "verticalApertureOffset", 0) / h;
+    const glm::dvec2 center_px = pixel_from_texture({s, t, 0, 1}, size);
+    device.intrinsics = {size, f / w * size.x, f / h * size.y, center_px.x, center_px.y};
     if (const std::string model = text_at(prim, "laterna:lensModel"); !model.empty()) {
       const auto parameters = prim.attributes.find("laterna:lensParameters");
       device.lens = {model, parameters == prim.attributes.end() ? std::vector<double>{}
@@ -258,6 +259,7 @@ std::string transform_text(const Rigid& world_from_camera) {
 std::string camera_text(const Device& d, const char* kind) {
   const Intrinsics& k = d.intrinsics;
   const double f = 50, w = f * k.size.x / k.fx, h = f * k.size.y / k.fy;
+  const glm::dvec2 offset = (0.5 - texture_from_pixel({k.cx, k.cy}, k.size)) * glm::dvec2(w, h);
   return fmt::format(
       "def Camera \"{}\"\n{{\n    token projection = \"perspective\"\n    float focalLength = {}\n"
       "    float horizontalAperture = {}\n    float verticalAperture = {}\n"
@@ -265,8 +267,7 @@ std::string camera_text(const Device& d, const char* kind) {
       "    matrix4d xformOp:transform = {}\n    uniform token[] xformOpOrder = [\"xformOp:transform\"]\n"
       "    custom int2 laterna:size = ({}, {})\n    custom string laterna:kind = \"{}\"\n"
       "    custom string laterna:lensModel = \"{}\"\n    custom double[] laterna:lensParameters = [{}]\n}}\n",
-      d.name, f, w, h, ((k.size.x - 1) / 2.0 - k.cx) / k.size.x * w,
-      (k.cy - (k.size.y - 1) / 2.0) / k.size.y * h,
+      d.name, f, w, h, offset.x, offset.y,
       transform_text(compose(inverse(d.device_from_world), view_from_device())), k.size.x, k.size.y, kind,
       d.lens.model, joined(d.lens.parameters));
 }
