@@ -32,7 +32,7 @@ std::string formats_text() {
          "Of a capture folder (or a folder of several: a board's places), into a new folder:\n"
          "  procam                       capture_N/graycode_NN.png of procam-calibration\n"
          "  scan3d                       set_NN/cam_NN.png and projector_info.txt of scan3d-capture\n"
-         "  slstudio                     frameSeq_NN/frameSeq_NN.png of SLStudio\n"
+         "  slstudio                     frameSeq_NN/frameSeq_NN.bmp of SLStudio\n"
          "  vnl                          corners.vnl of mrcal's tools, with --board\n"
          "  bop                          a scene of BOP's: cameras, poses, depth, gray, masks and models\n"
          "  ply            .ply          the points that were lit: of the truth, or --decoded and "
