@@ -36,8 +36,11 @@ std::vector<RigText> stereo_texts(const Rig& rig, Notes& notes) {
 bool is_opencv(const fs::path&, const Tree& tree) { return is_opencv_layout(tree); }
 bool never(const fs::path&, const Tree&) { return false; }
 
+// OpenCV's stereo sample keeps R and T in a second file.
 Rig read_opencv(const fs::path& path, const RigReadOptions&) {
-  return parse_opencv_storage(text_of(path), path.string());
+  const fs::path beside = path.parent_path() / ("extrinsics" + path.extension().string());
+  const bool two = path.stem() == "intrinsics" && fs::exists(beside);
+  return parse_opencv_storage(text_of(path), path.string(), two ? text_of(beside) : "");
 }
 
 bool is_kalibr(const fs::path&, const Tree& tree) { return tree.is_object() && tree.contains("cam0"); }
