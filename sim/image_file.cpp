@@ -24,12 +24,13 @@ struct Format {
   bool holds_words, holds_floats, holds_layers;
 };
 
-constexpr std::array<Format, 7> formats{{{".png", true, false, false},
+constexpr std::array<Format, 8> formats{{{".png", true, false, false},
                                          {".tif", true, true, false},
                                          {".tiff", true, true, false},
                                          {".pgm", false, false, false},  // OpenImageIO 2.4 cuts 16 bits to 8
                                          {".ppm", false, false, false},
                                          {".pnm", false, false, false},
+                                         {".bmp", false, false, false},
                                          {".exr", true, true, true}}};
 
 const Format& format_of(const fs::path& path) {

@@ -39,7 +39,7 @@ struct PictureView {
 ///
 ///   .png              u8 or u16, 1 or 3 channels; fast compression (level 1)
 ///   .tif, .tiff       u8, u16 or f32, 1 or 3 channels; uncompressed
-///   .pgm, .ppm, .pnm  u8, 1 or 3 channels
+///   .pgm, .ppm, .pnm  u8, 1 or 3 channels; .bmp likewise, for tools that read nothing else
 ///   .exr              any channels, ZIP; a name such as "projector.u" is channel u of layer projector. f32
 ///   as
 ///                     floats; u8 as half and u16 as single floats of the same whole numbers: half is exact

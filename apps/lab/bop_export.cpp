@@ -62,53 +62,90 @@ bool is_rigid(const glm::dmat4& m) {
   return largest < 1e-9 && glm::determinant(r) > 0;
 }
 
-Rigid world_from_model(const Object& object, Notes& notes) {
+// A mesh as a model, and where that stands.
+struct PlacedModel {
+  BopModel model;
+  Rigid world_from_model{};
+};
+
+PlacedModel placed_model(const Object& object, int obj_id, Notes& notes) {
   const glm::dmat4& m = object.world_from_object;
-  if (is_rigid(m)) return {glm::dmat3(m), glm::dvec3(m[3])};
+  if (is_rigid(m)) return {{obj_id, object.mesh}, {glm::dmat3(m), glm::dvec3(m[3])}};
   notes.push_back(fmt::format(
       "mesh \"{}\" is scaled: its model's frame is the world's, in the size it has there", object.name));
-  return {};
+  PlacedModel placed{{obj_id, object.mesh}};
+  for (glm::dvec3& x : placed.model.mesh.positions) x = glm::dvec3(m * glm::dvec4(x, 1));
+  if (glm::determinant(glm::dmat3(m)) < 0)  // a mirror turns the fronts round
+    for (glm::uvec3& t : placed.model.mesh.triangles) std::swap(t.y, t.z);
+  return placed;
 }
 
-// What each camera would see of one mesh alone.
-std::vector<Image<std::uint8_t>> silhouettes(const Scene& scene, const Object& object, StageTimes& times) {
-  Scene alone = scene;
-  alone.objects = {object};
-  const SceneRays rig = make_rig(alone, times);
-  std::vector<Image<std::uint8_t>> masks;
-  for (std::size_t c = 0; c < scene.cameras.size(); ++c) {
-    const SurfaceMap surface =
-        trace_surface(rig.rays, rig.as_seen(alone), scene.cameras[c], rig.directions[c]);
-    masks.push_back(mask_of(surface, [&](std::size_t i) { return surface.hit(i); }));
-  }
-  return masks;
+// The camera whose picture is the one `places` pictures to the right and down of its own.
+Camera beside(Camera camera, glm::ivec2 places) {
+  Intrinsics& k = camera.device.intrinsics;
+  const glm::dvec2 first_px = places * k.size;
+  k.cx -= first_px.x, k.cy -= first_px.y;
+  return camera;
+}
+
+// What a camera would see of one mesh alone.
+struct Silhouette {
+  Image<std::uint8_t> inside;
+  BopExtent whole;
+};
+
+Silhouette silhouette(const SceneRays& alone, const Scene& scene, const Camera& camera) {
+  Silhouette s;
+  for (int y = -1; y <= 1; ++y)
+    for (int x = -1; x <= 1; ++x) {
+      const glm::ivec2 places(x, y);
+      const SurfaceMap surface = trace_surface(alone.rays, alone.as_seen(scene), beside(camera, places));
+      const Image<std::uint8_t> mask = mask_of(surface, [&](std::size_t i) { return surface.hit(i); });
+      s.whole = merged(s.whole, extent_of(mask, places * camera.device.intrinsics.size));
+      if (places == glm::ivec2(0, 0)) s.inside = mask;
+    }
+  return s;
+}
+
+void check_pinholes(const Scene& scene) {
+  for (const Camera& camera : scene.cameras)
+    if (!is_pinhole(camera.device.lens))
+      throw InputError(
+          fmt::format("BOP holds no lens, \"{}\" has {}", camera.device.name, camera.device.lens.model));
 }
 
 }  // namespace
 
-std::vector<BopPicture> bop_pictures(const fs::path& capture, Notes& notes) {
+BopScene bop_scene(const fs::path& capture, Notes& notes) {
   const CaptureManifest manifest = read_manifest(capture);
   if (manifest.scene.empty())
     throw InputError(capture.string() + ": the capture has no scene, expected a simulated one for its depth");
   const Scene scene = load_scene(capture / manifest.scene);
+  check_pinholes(scene);
   StageTimes times;
   const SceneRays rig = make_rig(scene, times);
-  std::vector<BopPicture> pictures;
+  BopScene result;
   std::vector<SurfaceMap> surfaces;
   for (std::size_t c = 0; c < scene.cameras.size(); ++c) {
     const Device& camera = scene.cameras[c].device;
     surfaces.push_back(trace_surface(rig.rays, rig.as_seen(scene), scene.cameras[c], rig.directions[c]));
-    pictures.push_back({camera, depth_of(surfaces[c]), gray_of(capture, manifest, camera.name), {}});
+    result.pictures.push_back({camera, depth_of(surfaces[c]), gray_of(capture, manifest, camera.name), {}});
   }
   for (std::size_t k = 0; k < scene.objects.size(); ++k) {
-    const std::vector<Image<std::uint8_t>> whole = silhouettes(scene, scene.objects[k], times);
-    const Rigid model = world_from_model(scene.objects[k], notes);
-    for (std::size_t c = 0; c < pictures.size(); ++c)
-      pictures[c].objects.push_back(
-          {int(k) + 1, compose(pictures[c].camera.device_from_world, model), whole[c],
-           mask_of(surfaces[c], [&](std::size_t i) { return surfaces[c].object.values[i] == k; })});
+    Scene alone = scene;
+    alone.objects = {scene.objects[k]};
+    const SceneRays rays = make_rig(alone, times);
+    PlacedModel placed = placed_model(rays.as_seen(alone).objects[0], int(k) + 1, notes);
+    for (std::size_t c = 0; c < scene.cameras.size(); ++c) {
+      Silhouette s = silhouette(rays, alone, scene.cameras[c]);
+      result.pictures[c].objects.push_back(
+          {int(k) + 1, compose(scene.cameras[c].device.device_from_world, placed.world_from_model),
+           std::move(s.inside),
+           mask_of(surfaces[c], [&](std::size_t i) { return surfaces[c].object.values[i] == k; }), s.whole});
+    }
+    result.models.push_back(std::move(placed.model));
   }
-  return pictures;
+  return result;
 }
 
 void write_bop_layers(const fs::path& to, const std::vector<BopPicture>& pictures) {

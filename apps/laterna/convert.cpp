@@ -32,9 +32,9 @@ std::string formats_text() {
          "Of a capture folder (or a folder of several: a board's places), into a new folder:\n"
          "  procam                       capture_N/graycode_NN.png of procam-calibration\n"
          "  scan3d                       set_NN/cam_NN.png and projector_info.txt of scan3d-capture\n"
-         "  slstudio                     frameSeq_NN/frameSeq_NN.png of SLStudio\n"
+         "  slstudio                     frameSeq_NN/frameSeq_NN.bmp of SLStudio\n"
          "  vnl                          corners.vnl of mrcal's tools, with --board\n"
-         "  bop                          a scene of BOP's: cameras, depth, gray, mask and mask_visib\n"
+         "  bop                          a scene of BOP's: cameras, poses, depth, gray, masks and models\n"
          "  ply            .ply          the points that were lit: of the truth, or --decoded and "
          "intersected\n"
          "Of a scene's folder of BOP's, into a new folder:\n"
@@ -74,7 +74,9 @@ bool wants_bop(const Words& words) {
 void convert_bop(const Words& words, Notes& notes) {
   if (words.as == "exr") return write_bop_layers(words.to, read_bop_scene(words.from));
   PendingFolder folder(words.to);
-  write_bop_scene(folder.path(), bop_pictures(words.from, notes), notes);
+  const BopScene scene = bop_scene(words.from, notes);
+  write_bop_scene(folder.path(), scene.pictures, notes);
+  write_bop_models(folder.path(), scene.models);
   folder.commit();
 }
 

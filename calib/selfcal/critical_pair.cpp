@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/type_ptr.hpp>
 
 namespace laterna {
 
@@ -11,17 +12,8 @@ namespace {
 using Matrix3 = Eigen::Matrix3d;
 using Vector9 = Eigen::Matrix<double, 9, 1>;
 
-// Middle at the origin, mean distance √2.
-Matrix3 normaliser(const std::vector<glm::dvec2>& pixels) {
-  glm::dvec2 middle(0.0);
-  for (const glm::dvec2& p : pixels) middle += p / double(pixels.size());
-  double distance = 0;
-  for (const glm::dvec2& p : pixels) distance += glm::length(p - middle) / double(pixels.size());
-  const double s = std::sqrt(2.0) / std::max(distance, 1e-300);
-  Matrix3 m;
-  m << s, 0, -s * middle.x, 0, s, -s * middle.y, 0, 0, 1;
-  return m;
-}
+glm::dmat3 to_glm(const Matrix3& m) { return glm::make_mat3(m.data()); }
+Matrix3 to_eigen(const glm::dmat3& m) { return Eigen::Map<const Matrix3>(glm::value_ptr(m)); }
 
 Eigen::Vector3d homogeneous(const glm::dvec2& p) { return {p.x, p.y, 1}; }
 
@@ -31,21 +23,13 @@ double algebraic_sigma(const StationPair& p, std::size_t i, const Matrix3& m) {
   return std::hypot(p.sigma_b[i] * ma.head<2>().norm(), p.sigma_a[i] * mb.head<2>().norm());
 }
 
-glm::dmat3 to_glm(const Matrix3& m) {
-  glm::dmat3 g;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) g[j][i] = m(i, j);
-  return g;
-}
-
 }  // namespace
 
 std::optional<double> other_matrix_scale(const StationPair& pair, const glm::dmat3& fundamental) {
   if (pair.size() < 12) return std::nullopt;
-  const Matrix3 ta = normaliser(pair.pixel_a), tb = normaliser(pair.pixel_b);
-  Matrix3 m;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) m(i, j) = fundamental[j][i];
+  const Matrix3 ta = to_eigen(normalised_from_pixel(pair.pixel_a)),
+                tb = to_eigen(normalised_from_pixel(pair.pixel_b));
+  Matrix3 m = to_eigen(fundamental);
   const Matrix3 f = tb.inverse().transpose() * m * ta.inverse();  // of normalised pixels
   const Vector9 along = Eigen::Map<const Vector9>(f.data()).normalized();
   const Eigen::Matrix<double, 9, 8> beside =

@@ -9,6 +9,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/type_ptr.hpp>
 #include <map>
 #include <opencv2/calib3d.hpp>
 #include <optional>
@@ -19,19 +20,8 @@ namespace {
 
 using Matrix3 = Eigen::Matrix3d;
 
-glm::dmat3 to_glm(const Matrix3& m) {
-  glm::dmat3 g;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) g[j][i] = m(i, j);
-  return g;
-}
-
-Matrix3 to_eigen(const glm::dmat3& g) {
-  Matrix3 m;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) m(i, j) = g[j][i];
-  return m;
-}
+glm::dmat3 to_glm(const Matrix3& m) { return glm::make_mat3(m.data()); }
+Matrix3 to_eigen(const glm::dmat3& m) { return Eigen::Map<const Matrix3>(glm::value_ptr(m)); }
 
 std::optional<Matrix3> from_cv(const cv::Mat& m) {
   if (m.rows < 3 || m.cols != 3) return std::nullopt;
@@ -45,18 +35,6 @@ std::vector<cv::Point2d> cv_points(const std::vector<glm::dvec2>& pixels) {
   std::vector<cv::Point2d> points;
   for (const glm::dvec2& p : pixels) points.emplace_back(p.x, p.y);
   return points;
-}
-
-// Centroid at the origin, mean distance √2.
-Matrix3 normaliser(const std::vector<glm::dvec2>& pixels) {
-  glm::dvec2 center(0.0);
-  for (const glm::dvec2& p : pixels) center += p / double(pixels.size());
-  double distance = 0;
-  for (const glm::dvec2& p : pixels) distance += glm::length(p - center) / double(pixels.size());
-  const double s = std::sqrt(2.0) / std::max(distance, 1e-12);
-  Matrix3 t;
-  t << s, 0, -s * center.x, 0, s, -s * center.y, 0, 0, 1;
-  return t;
 }
 
 template <class T>
@@ -95,7 +73,8 @@ struct SampsonResidual {
 };
 
 Matrix3 refine(const StationPair& pair, const Matrix3& start) {
-  const Matrix3 ta = normaliser(pair.pixel_a), tb = normaliser(pair.pixel_b);
+  const Matrix3 ta = to_eigen(normalised_from_pixel(pair.pixel_a)),
+                tb = to_eigen(normalised_from_pixel(pair.pixel_b));
   const Eigen::JacobiSVD<Matrix3> svd(tb.inverse().transpose() * start * ta.inverse(),
                                       Eigen::ComputeFullU | Eigen::ComputeFullV);
   const Orthonormal form{pair, ta, tb, svd.matrixU(), svd.matrixV()};
@@ -169,6 +148,15 @@ std::vector<double> transfer_errors(const StationPair& pair, const Matrix3& h) {
 }
 
 }  // namespace
+
+glm::dmat3 normalised_from_pixel(const std::vector<glm::dvec2>& pixels) {
+  glm::dvec2 center(0.0);
+  for (const glm::dvec2& p : pixels) center += p / double(pixels.size());
+  double distance = 0;
+  for (const glm::dvec2& p : pixels) distance += glm::length(p - center) / double(pixels.size());
+  const double s = std::sqrt(2.0) / std::max(distance, 1e-12);
+  return {s, 0, 0, 0, s, 0, -s * center.x, -s * center.y, 1};
+}
 
 std::vector<StationPair> station_pairs(const Tracks& tracks) {
   std::map<std::pair<int, int>, StationPair> pairs;

@@ -21,6 +21,11 @@ struct StationPair {
 /// All pairs of stations with at least 8 points in common, by a, then b.
 std::vector<StationPair> station_pairs(const Tracks& tracks);
 
+/// Hartley's normaliser: N·(u, v, 1) has its centroid at the origin and lies √2 from it in the mean; N keeps
+/// axes and aspect. Coinciding pixels are scaled by √2·10¹². (Hartley and Zisserman, Multiple View Geometry,
+/// 2nd ed., 4.4.4)
+glm::dmat3 normalised_from_pixel(const std::vector<glm::dvec2>& pixels);
+
 /// Sampson's distance of each point from a fundamental matrix (x_bᵀ·F·x_a = 0), in sigmas: r =
 /// x_bᵀF x_a / sqrt(σ_b²·|(F x_a)₁₂|² + σ_a²·|(Fᵀx_b)₁₂|²). (Hartley and Zisserman, 11.4.3)
 std::vector<double> epipolar_residuals(const StationPair& pair, const glm::dmat3& fundamental);

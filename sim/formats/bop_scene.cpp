@@ -33,6 +33,8 @@ int id_of(const std::string& key, const std::string& file) {
 
 Tree tree_of(const fs::path& file) { return json_tree(read_text(file, most_tree_bytes), file.string()); }
 
+Tree tree_or_none(const fs::path& file) { return fs::exists(file) ? tree_of(file) : Tree::object(); }
+
 void check_size(const fs::path& file, glm::ivec2 found, glm::ivec2 expected) {
   if (found != expected)
     throw InputError(fmt::format("{}: {}x{} pixels, expected its camera's {}x{}", file.string(), found.x,
@@ -42,7 +44,7 @@ void check_size(const fs::path& file, glm::ivec2 found, glm::ivec2 expected) {
 // A picture of one channel; empty where there is no file.
 template <class T>
 Image<T> read_channel(const fs::path& file, glm::ivec2 size) {
-  if (!fs::exists(file)) return {};
+  if (file.empty() || !fs::exists(file)) return {};
   Picture picture = read_picture(file);
   auto* values = std::get_if<std::vector<T>>(&picture.values);
   if (values == nullptr || picture.channel_names.size() != 1)
@@ -73,10 +75,17 @@ BopObject object_of(const Place& entry, const fs::path& folder, const std::strin
           read_channel<std::uint8_t>(folder / "mask_visib" / name, size)};
 }
 
+// A picture's file, whichever ending it has; without one where it is not there.
+fs::path picture_at(const fs::path& folder, int id) {
+  for (const char* ending : {".png", ".tif", ".jpg"})
+    if (const fs::path file = folder / fmt::format("{:06}{}", id, ending); fs::exists(file)) return file;
+  return {};
+}
+
 glm::ivec2 size_by_picture(const fs::path& folder, int id) {
   for (const char* kind : {"depth", "gray", "rgb"}) {
-    const fs::path file = folder / kind / picture_name(id);
-    if (!fs::exists(file)) continue;
+    const fs::path file = picture_at(folder / kind, id);
+    if (file.empty()) continue;
     const Picture picture = read_picture(file);
     return {picture.width, picture.height};
   }
@@ -136,6 +145,33 @@ Tree pose_json(const BopObject& object) {
           {"cam_t_m2c", {t.x, t.y, t.z}}};
 }
 
+void write_masks(const fs::path& folder, int id, const std::vector<BopObject>& objects) {
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    write_channel(folder / "mask" / mask_name(id, i), objects[i].silhouette);
+    write_channel(folder / "mask_visib" / mask_name(id, i), objects[i].visible);
+  }
+}
+
+Tree info_json(const BopObject& object, const Image<float>& depth_m) {
+  int valid = 0;
+  for (std::size_t i = 0; i < depth_m.values.size(); ++i)
+    valid += object.silhouette.values[i] != 0 && std::isfinite(depth_m.values[i]);
+  return bop_info(object.whole.value_or(extent_of(object.silhouette)), valid, extent_of(object.visible));
+}
+
+// Of all pictures; null where an object has no masks.
+Tree info_json(const std::vector<BopPicture>& pictures) {
+  Tree info = Tree::object();
+  for (std::size_t id = 0; id < pictures.size(); ++id) {
+    Tree& list = info[std::to_string(id)] = Tree::array();
+    for (const BopObject& object : pictures[id].objects) {
+      if (object.silhouette.values.empty() || object.visible.values.empty()) return nullptr;
+      list.push_back(info_json(object, pictures[id].depth_m));
+    }
+  }
+  return info;
+}
+
 }  // namespace
 
 bool is_bop_scene(const fs::path& folder) {
@@ -153,19 +189,24 @@ Rig read_bop_cameras(const fs::path& folder) {
 
 std::vector<BopPicture> read_bop_scene(const fs::path& folder) {
   const fs::path file = folder / "scene_camera.json", poses_file = folder / "scene_gt.json";
-  const Tree tree = tree_of(file), poses = fs::exists(poses_file) ? tree_of(poses_file) : Tree::object();
-  const Place cameras{&tree, file.string()}, poses_by_picture{&poses, poses_file.string()};
+  const fs::path info_file = folder / "scene_gt_info.json";
+  const Tree tree = tree_of(file), poses = tree_or_none(poses_file), info = tree_or_none(info_file);
+  const Place cameras{&tree, file.string()}, poses_by_picture{&poses, poses_file.string()},
+      info_by_picture{&info, info_file.string()};
   std::vector<BopPicture> pictures;
   for (NumberedCamera& numbered : cameras_of(cameras, folder)) {
-    const std::string key = std::to_string(numbered.id), name = picture_name(numbered.id);
+    const std::string key = std::to_string(numbered.id);
     const glm::ivec2 size = numbered.camera.intrinsics.size;
     BopPicture& picture = pictures.emplace_back(BopPicture{std::move(numbered.camera)});
-    picture.depth_m = read_depth(folder / "depth" / name, size, cameras.at(key));
-    picture.gray = read_channel<std::uint8_t>(folder / "gray" / name, size);
+    picture.depth_m = read_depth(picture_at(folder / "depth", numbered.id), size, cameras.at(key));
+    picture.gray = read_channel<std::uint8_t>(picture_at(folder / "gray", numbered.id), size);
     if (!poses_by_picture.has(key.c_str())) continue;
     const Place objects = poses_by_picture.at(key);
     for (std::size_t i = 0; i < objects.size(); ++i)
       picture.objects.push_back(object_of(objects.at(i), folder, mask_name(numbered.id, i), size));
+    if (!info_by_picture.has(key.c_str())) continue;
+    for (std::size_t i = 0; i < objects.size(); ++i)
+      picture.objects[i].whole = bop_whole(info_by_picture.at(key).at(i));
   }
   return pictures;
 }
@@ -180,16 +221,14 @@ void write_bop_scene(const fs::path& folder, const std::vector<BopPicture>& pict
     cameras[std::to_string(id)]["depth_scale"] = scale;
     write_channel(folder / "depth" / picture_name(id), depth_steps(picture.depth_m, scale));
     write_channel(folder / "gray" / picture_name(id), picture.gray);
-    Tree& list = poses[std::to_string(id)] = Tree::array();
-    for (std::size_t i = 0; i < picture.objects.size(); ++i) {
-      const BopObject& object = picture.objects[i];
-      list.push_back(pose_json(object));
-      write_channel(folder / "mask" / mask_name(id, i), object.silhouette);
-      write_channel(folder / "mask_visib" / mask_name(id, i), object.visible);
-    }
+    poses[std::to_string(id)] = Tree::array();
+    for (const BopObject& object : picture.objects) poses[std::to_string(id)].push_back(pose_json(object));
+    write_masks(folder, id, picture.objects);
   }
   write_file(folder / "scene_camera.json", cameras.dump(2) + "\n");
   write_file(folder / "scene_gt.json", poses.dump(2) + "\n");
+  if (const Tree info = info_json(pictures); !info.is_null())
+    write_file(folder / "scene_gt_info.json", info.dump(2) + "\n");
 }
 
 }  // namespace laterna

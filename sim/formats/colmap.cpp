@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <sstream>
@@ -106,6 +107,13 @@ std::string model_text(const Device& device) {
   return fmt::format("{} {} {} {}", model, k.size.x, k.size.y, joined(numbers, " "));
 }
 
+// "left/0001.png" to "left_0001": a rig's cameras are folders there.
+std::string name_of(const std::string& image) {
+  std::string name = std::filesystem::path(image).replace_extension().string();
+  std::replace(name.begin(), name.end(), '/', '_');
+  return name;
+}
+
 std::string pose_text(const Rigid& device_from_world) {
   const glm::dquat q = glm::normalize(glm::quat_cast(device_from_world.rotation));
   const glm::dvec3 t = device_from_world.translation;
@@ -122,7 +130,7 @@ Rig parse_colmap(const std::string& cameras_txt, const std::string& images_txt, 
     const auto camera = cameras.find(line.whole_number(8));
     if (camera == cameras.end()) line.fail(fmt::format("camera {} is not in cameras.txt", line.words()[8]));
     Device device = camera->second;
-    device.name = std::filesystem::path(line.words()[9]).stem().string();
+    device.name = name_of(line.words()[9]);
     device.device_from_world =
         rigid_from_quaternion({line.number(1), line.number(2), line.number(3), line.number(4)},
                               {line.number(5), line.number(6), line.number(7)});

@@ -8,9 +8,9 @@
 // likewise. Poses are device_from_world, as here, by quaternion w, x, y, z; x right, y down, z forward, as
 // here. Lengths are in no stated unit. Models: SIMPLE_PINHOLE (f, cx, cy), PINHOLE (fx, fy, cx, cy),
 // SIMPLE_RADIAL (f, cx, cy, k), RADIAL (f, cx, cy, k1, k2), OPENCV (fx, fy, cx, cy, k1, k2, p1, p2),
-// FULL_OPENCV (the same, k3 to k6). A device is an image; its name is the image's without its ending. COLMAP
-// knows no projectors: an image whose name begins with "proj" is one. https://colmap.github.io/format.html,
-// https://colmap.github.io/cameras.html
+// FULL_OPENCV (the same, k3 to k6). A device is an image; its name is the image's without its ending, with _
+// for /. COLMAP knows no projectors: an image whose name begins with "proj" is one.
+// https://colmap.github.io/format.html, https://colmap.github.io/cameras.html
 #pragma once
 
 #include "sim/formats/parts.h"

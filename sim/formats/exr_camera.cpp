@@ -21,7 +21,7 @@ constexpr double tolerance = 1e-5;  // single precision, and matrices that were 
 // Device frame to OpenEXR's camera frame and back: y turns round, and with it the hand.
 glm::dmat4 y_flipped() { return glm::dmat4(glm::dmat3(1, 0, 0, 0, -1, 0, 0, 0, 1)); }
 
-// (x', y', z', w') = (s, q - t, r, q).
+// (x', y', z', w') = (s, q - t, r, q): its own inverse.
 glm::dmat4 window_from_texture() { return {1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1, 0, 0, 1, 0, 1}; }
 
 glm::dmat4 finite(const std::optional<glm::mat4>& matrix, const char* name, const std::string& place) {
@@ -54,7 +54,8 @@ Intrinsics pinhole(const glm::dmat4& window_from_device, glm::ivec2 size, const 
     refuse(place, "worldToNDC's x or y runs backwards, expected OpenEXR's: x right, y down");
   if (std::abs(m[1].x) + std::abs(m[0].y) > tolerance * depth * std::min(fx, fy))
     refuse(place, "worldToNDC is skewed, expected a pinhole: no device here has a skew");
-  return {size, fx * size.x, fy * size.y, m[2].x / depth * size.x - 0.5, m[2].y / depth * size.y - 0.5};
+  const glm::dvec2 center_px = pixel_from_texture(window_from_texture() * m[2], size);  // of the axis
+  return {size, fx * size.x, fy * size.y, center_px.x, center_px.y};
 }
 
 // Whether x', y' and w' vanish at the camera's centre, within 1e-5 of the distances that cancel there.

@@ -16,6 +16,7 @@ struct PairLayout {
   const char *name, *camera_k, *camera_d, *projector_k, *projector_d, *rotation, *translation;
   bool xml;
 };
+constexpr std::size_t slstudio_terms = 5;
 constexpr std::array layouts = {
     PairLayout{"scan3d", "cam_K", "cam_kc", "proj_K", "proj_kc", "R", "T", false},
     PairLayout{"scan3d", "Cam_K", "Cam_kc", "Proj_K", "Proj_Kc", "R", "T", false},
@@ -97,6 +98,22 @@ std::vector<Device> devices_at(const Place& file, const char* key) {
   return devices;
 }
 
+// What OpenCV's calibration sample writes of one camera.
+struct SampleLayout {
+  const char *k, *d, *width, *height;
+};
+constexpr std::array samples = {
+    SampleLayout{"camera_matrix", "distortion_coefficients", "image_width", "image_height"},
+    SampleLayout{"Camera_Matrix", "Distortion_Coefficients", "image_Width", "image_Height"},
+};
+
+Device sample_of(const Place& file, const SampleLayout& layout) {
+  if (file.has("fisheye_model") && file.at("fisheye_model").whole_number() != 0)
+    fail_at(file.at("fisheye_model"), "0: no lens here is OpenCV's fisheye model");
+  return device_of("camera", file.at(layout.k), file.at(layout.d),
+                   size_at(file, layout.width, layout.height));
+}
+
 std::string matrix_text(const char* key, int rows, const std::vector<double>& data, bool xml,
                         const char* indent = "") {
   const std::size_t cols = data.size() / std::size_t(rows);
@@ -119,6 +136,25 @@ std::vector<double> translation_of(const Device& device) {
 std::vector<double> written_coefficients(const Device& device) {
   std::vector<double> c = opencv_coefficients(device, "OpenCV's storage");
   return c.empty() ? std::vector<double>(5, 0.0) : c;
+}
+
+std::vector<double> written_coefficients(const Device& device, const std::string& layout) {
+  if (layout != "slstudio") return written_coefficients(device);
+  std::vector<double> c = opencv_coefficients(device, "SLStudio", slstudio_terms);
+  c.resize(slstudio_terms, 0.0);
+  return c;
+}
+
+glm::dmat3 k_matrix(const Intrinsics& k) { return {k.fx, 0, 0, 0, k.fy, 0, k.cx, k.cy, 1}; }
+
+// E = [T]×·R, and F = K_projector⁻ᵀ·E·K_camera⁻¹: pixel_projectorᵀ·F·pixel_camera = 0 without lenses.
+std::string epipolar_text(const Device& camera, const Device& projector) {
+  const auto& [r, t] = projector.device_from_world;
+  const glm::dmat3 e = glm::dmat3(0, t.z, -t.y, -t.z, 0, t.x, t.y, -t.x, 0) * r;
+  const glm::dmat3 f = glm::transpose(glm::inverse(k_matrix(projector.intrinsics))) * e *
+                       glm::inverse(k_matrix(camera.intrinsics));
+  return matrix_text("E", 3, rotation_rows({e, {}}), false) +
+         matrix_text("F", 3, rotation_rows({f, {}}), false);
 }
 
 std::string sizes_text(const Device& camera, const Device& projector, const std::string& layout, bool xml) {
@@ -144,13 +180,14 @@ std::string pair_text(const Rig& given, const PairLayout& layout, Notes& notes) 
   const auto text = [&](const char* key, int rows, const std::vector<double>& data) {
     return matrix_text(key, rows, data, layout.xml);
   };
-  const std::string body = sizes_text(camera, projector, layout.name, layout.xml) +
-                           text(layout.camera_k, 3, k_of(camera.intrinsics)) +
-                           text(layout.camera_d, 1, written_coefficients(camera)) +
-                           text(layout.projector_k, 3, k_of(projector.intrinsics)) +
-                           text(layout.projector_d, 1, written_coefficients(projector)) +
-                           text(layout.rotation, 3, rotation_rows(projector.device_from_world)) +
-                           text(layout.translation, 3, translation_of(projector));
+  std::string body = sizes_text(camera, projector, layout.name, layout.xml) +
+                     text(layout.camera_k, 3, k_of(camera.intrinsics)) +
+                     text(layout.camera_d, 1, written_coefficients(camera, layout.name)) +
+                     text(layout.projector_k, 3, k_of(projector.intrinsics)) +
+                     text(layout.projector_d, 1, written_coefficients(projector, layout.name)) +
+                     text(layout.rotation, 3, rotation_rows(projector.device_from_world)) +
+                     text(layout.translation, 3, translation_of(projector));
+  if (layout.name == std::string("scan3d")) body += epipolar_text(camera, projector);
   return layout.xml ? "<?xml version=\"1.0\"?>\n<opencv_storage>\n" + body + "</opencv_storage>\n"
                     : "%YAML:1.0\n---\n" + body;
 }
@@ -175,11 +212,16 @@ bool is_opencv_layout(const Tree& tree) {
   if (!tree.is_object()) return false;
   const auto has = [&](const char* key) { return tree.contains(key); };
   return has("Cameras") || has("Projectors") || (has("camera_matrix") && !has("distortion_model")) ||
+         has("Camera_Matrix") ||
          std::any_of(layouts.begin(), layouts.end(), [&](const PairLayout& l) { return has(l.camera_k); });
 }
 
-Rig parse_opencv_storage(const std::string& text, const std::string& file_name) {
-  const Tree tree = any_tree(text, file_name);
+Rig parse_opencv_storage(const std::string& text, const std::string& file_name,
+                         const std::string& extrinsics) {
+  Tree tree = any_tree(text, file_name);
+  if (!extrinsics.empty())
+    if (const Tree more = any_tree(extrinsics, "extrinsics"); tree.is_object() && more.is_object())
+      tree.update(more);
   const Place file{&tree, file_name};
   if (file.has("Cameras") || file.has("Projectors"))
     return {devices_at(file, "Cameras"), devices_at(file, "Projectors")};
@@ -187,13 +229,11 @@ Rig parse_opencv_storage(const std::string& text, const std::string& file_name) 
     if (file.has(layout.camera_k) &&
         (file.has(layout.rotation) || std::string(layout.rotation) != "roration"))
       return pair_of(file, layout);
-  if (!file.has("camera_matrix"))
-    throw InputError(fmt::format(
-        "{}: no layout that is known, expected cam_K, cam_int, Kc, M1, camera_matrix, Cameras or Projectors",
-        file_name));
-  return {{device_of("camera", file.at("camera_matrix"), file.at("distortion_coefficients"),
-                     size_at(file, "image_width", "image_height"))},
-          {}};
+  for (const SampleLayout& layout : samples)
+    if (file.has(layout.k)) return {{sample_of(file, layout)}, {}};
+  throw InputError(fmt::format(
+      "{}: no layout that is known, expected cam_K, cam_int, Kc, M1, camera_matrix, Cameras or Projectors",
+      file_name));
 }
 
 std::string opencv_storage_text(const Rig& rig, const std::string& layout, Notes& notes) {

@@ -1,14 +1,19 @@
 // OpenCV's FileStorage (YAML, XML or JSON) in the layouts that camera-projector tools write.
 //
-//   scan3d         cam_K, cam_kc, proj_K, proj_kc, R, T               scan3d-capture (Cam_K... as well)
+//   scan3d         cam_K, cam_kc, proj_K, proj_kc, R, T, E, F (without E and F the tool takes the file for
+//   none)
+//                  scan3d-capture (Cam_K... as well)
 //   procam         cam_int, cam_dist, proj_int, proj_dist, rotation (written `roration` by the tool),
-//   translation,
-//                  img_shape (height, then width)                     procam-calibration
-//   slstudio       Kc, kc, Kp, kp, Rp, Tp, frameWidth, frameHeight, screenResX, screenResY   SLStudio
-//   opencv-stereo  M1, D1, M2, D2, R, T (the second device is taken for the projector)   OpenCV's stereo
-//   samples opencv         Cameras, Projectors: lists of {name, size: [W, H], K, D, R, T}; ours, for any
-//   number (read only)    camera_matrix, distortion_coefficients, image_width, image_height     OpenCV's
-//   calibration sample
+//                  translation, img_shape (height, then width)         procam-calibration
+//   slstudio       Kc, kc, Kp, kp, Rp, Tp, frameWidth, frameHeight, screenResX, screenResY; kc and kp of just
+//                  five coefficients                                   SLStudio
+//   opencv-stereo  M1, D1, M2, D2, R, T (the second device is taken for the projector); the sample keeps R
+//   and T
+//                  in extrinsics.yml beside intrinsics.yml             OpenCV's stereo samples
+//   opencv         Cameras, Projectors: lists of {name, size: [W, H], K, D, R, T}; ours, for any number
+//   (read only)    camera_matrix, distortion_coefficients, image_width, image_height; in older files
+//                  Camera_Matrix, Distortion_Coefficients, image_Width, image_Height
+//                                                                      OpenCV's calibration sample
 //
 // There and here alike: pixel centres at whole numbers, u right, v down; x right, y down, z forward; K row by
 // row; distortion k1, k2, p1, p2, k3, ... Pairs: x_projector = R·x_camera + T, the world is the camera's
@@ -23,9 +28,11 @@
 
 namespace laterna {
 
-/// Devices are named "camera" and "projector" in pairs; a size that the file does not say stays 0. Throws
-/// InputError, beginning with `file_name` and the key, for anything else.
-Rig parse_opencv_storage(const std::string& text, const std::string& file_name);
+/// `extrinsics`: the text of a second file whose keys are added. Devices are named "camera" and "projector"
+/// in pairs; a size that the file does not say stays 0. Throws InputError, beginning with `file_name` and the
+/// key, for anything else, such as a fisheye model.
+Rig parse_opencv_storage(const std::string& text, const std::string& file_name,
+                         const std::string& extrinsics = "");
 
 /// Whether a tree has one of the layouts.
 bool is_opencv_layout(const Tree& tree);

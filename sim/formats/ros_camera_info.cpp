@@ -19,6 +19,24 @@ Lens lens_of(const Place& file) {
   return lens_from_opencv(matrix(coefficients, 0), coefficients.name);
 }
 
+// Where R and P stand for an identity, the origin.
+Rigid placement_of(const Place& file) {
+  Rigid rectified_from_world, device_from_rectified;
+  if (file.has("projection_matrix")) {
+    const Place place = file.at("projection_matrix");
+    const std::vector<double> p = matrix(place, 12);
+    if (p[3] != 0 || p[7] != 0) {
+      if (!(p[0] > 0 && p[5] > 0)) fail_at(place, "focal lengths above 0 beside Tx, Ty");
+      rectified_from_world.translation = {p[3] / p[0], p[7] / p[5], 0};
+    }
+  }
+  if (file.has("rectification_matrix")) {
+    const Place place = file.at("rectification_matrix");
+    device_from_rectified = inverse(rigid_from_rotation_rows(matrix(place, 9), {}, place.name));
+  }
+  return compose(device_from_rectified, rectified_from_world);
+}
+
 std::string matrix_text(const char* key, int rows, const std::vector<double>& data) {
   return fmt::format("{}:\n  rows: {}\n  cols: {}\n  data: [{}]\n", key, rows,
                      data.size() / std::size_t(rows), joined(data));
@@ -35,6 +53,7 @@ Device parse_camera_info(const std::string& text, const std::string& file_name) 
   const glm::ivec2 size(file.at("image_width").whole_number(), file.at("image_height").whole_number());
   device.intrinsics = intrinsics_from_k(matrix(k, 9), size, k.name);
   device.lens = lens_of(file);
+  device.device_from_world = placement_of(file);
   return device;
 }
 

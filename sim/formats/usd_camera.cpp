@@ -1,6 +1,7 @@
 #include "sim/formats/usd_camera.h"
 
 #include "sim/error.h"
+#include "sim/formats/usd_transform.h"
 #include "sim/text_file.h"
 
 #include <fmt/format.h>
@@ -12,23 +13,6 @@
 namespace laterna {
 
 namespace {
-
-// The numbers of "((1, 0), (0, 1))", "[1, 2]" or "3".
-std::vector<double> numbers_in(const std::string& value, const std::string& place) {
-  std::vector<double> numbers;
-  constexpr std::string_view between = "()[], \t\r\n";
-  for (std::size_t at = value.find_first_not_of(between); at != value.npos;
-       at = value.find_first_not_of(between, at)) {
-    const std::size_t end = std::min(value.find_first_of(between, at), value.size());
-    double number = 0;
-    if (!read_number(std::string_view(value).substr(at, end - at), number))
-      throw InputError(fmt::format("{}: found \"{}\", expected numbers", place,
-                                   value.substr(at, std::min<std::size_t>(end - at, 40))));
-    numbers.push_back(number);
-    at = end;
-  }
-  return numbers;
-}
 
 // Comments become blanks of the same length, so that places stand; those in strings are none.
 std::string without_comments(std::string text) {
@@ -43,7 +27,7 @@ std::string without_comments(std::string text) {
 
 struct Prim {
   std::string type, name;
-  Rigid world_from_parent{}, parent_from_prim{};
+  Rigid world_from_parent{};
   std::map<std::string, std::string> attributes;
 };
 
@@ -97,7 +81,7 @@ class Reader {
     if (const std::size_t key = metadata.find("metersPerUnit"); key != metadata.npos) {
       const std::size_t equals = metadata.find('=', key), stop = metadata.find_first_of("\n)", key);
       if (equals > stop) fail("metersPerUnit without a number");
-      const std::vector<double> unit = numbers_in(metadata.substr(equals + 1, stop - equals - 1), file_);
+      const std::vector<double> unit = usd_numbers(metadata.substr(equals + 1, stop - equals - 1), file_);
       if (unit.size() != 1 || !(unit[0] > 0)) fail("metersPerUnit, expected a number above 0");
       metres_per_unit_ = unit[0];
     }
@@ -145,8 +129,7 @@ class Reader {
     Prim prim;
     prim.type = words.size() == 3 ? words[1] : "";
     prim.name = name.substr(1, name.size() - 2);
-    if (!open_.empty())
-      prim.world_from_parent = compose(open_.back().world_from_parent, open_.back().parent_from_prim);
+    if (!open_.empty()) prim.world_from_parent = world_from(open_.back());
     open_.push_back(std::move(prim));
   }
 
@@ -159,21 +142,15 @@ class Reader {
     const std::string value = text_.substr(at_, end - at_);
     if (name.find(".timeSamples") != name.npos) fail(name + ": expected a camera that stands still");
     Prim& prim = open_.back();
-    if (name == "xformOp:transform")
-      prim.parent_from_prim = transform(value, name);
-    else if (name.starts_with("xformOp:"))
-      fail(name + ": expected xformOp:transform alone");
     prim.attributes[name] = value;
     at_ = end;
     if (prim.attributes.size() > 10000) fail("more than 10000 attributes");
   }
 
-  Rigid transform(const std::string& value, const std::string& name) const {
-    const std::vector<double> m = numbers_in(value, file_);
-    if (m.size() != 16 || m[3] != 0 || m[7] != 0 || m[11] != 0 || m[15] != 1)
-      fail(name + ": expected 4 rows of 4 numbers with a last column of 0, 0, 0, 1");
-    const std::vector<double> rows = {m[0], m[4], m[8], m[1], m[5], m[9], m[2], m[6], m[10]};  // row vectors
-    return rigid_from_rotation_rows(rows, glm::dvec3(m[12], m[13], m[14]) * metres_per_unit_, file_);
+  // Operations stand before the prims inside.
+  Rigid world_from(const Prim& prim) const {
+    return compose(prim.world_from_parent,
+                   usd_parent_from_prim(prim.attributes, metres_per_unit_, file_ + ": " + prim.name));
   }
 
   void close() {
@@ -187,7 +164,7 @@ class Reader {
   double number(const Prim& prim, const std::string& key, double otherwise) const {
     const auto found = prim.attributes.find(key);
     if (found == prim.attributes.end()) return otherwise;
-    const std::vector<double> numbers = numbers_in(found->second, file_ + ": " + prim.name + "." + key);
+    const std::vector<double> numbers = usd_numbers(found->second, file_ + ": " + prim.name + "." + key);
     if (numbers.size() != 1) fail(fmt::format("{}.{}: expected a number", prim.name, key));
     return numbers[0];
   }
@@ -207,7 +184,7 @@ class Reader {
                          prim.name));
       return camera_size_;
     }
-    const std::vector<double> size = numbers_in(found->second, file_);
+    const std::vector<double> size = usd_numbers(found->second, file_);
     if (size.size() != 2 || size[0] != int(size[0]) || size[1] != int(size[1]))
       fail("laterna:size: expected width and height");
     return {int(size[0]), int(size[1])};
@@ -222,16 +199,16 @@ class Reader {
       fail(fmt::format("\"{}\": focal length and apertures are above 0", prim.name));
     Device device;
     device.name = prim.name;
-    device.intrinsics = {size, f / w * size.x, f / h * size.y,
-                         (size.x - 1) / 2.0 - number(prim, "horizontalApertureOffset", 0) / w * size.x,
-                         (size.y - 1) / 2.0 + number(prim, "verticalApertureOffset", 0) / h * size.y};
+    const double s = 0.5 - number(prim, "horizontalApertureOffset", 0) / w,
+                 t = 0.5 - number(prim, "verticalApertureOffset", 0) / h;
+    const glm::dvec2 center_px = pixel_from_texture({s, t, 0, 1}, size);
+    device.intrinsics = {size, f / w * size.x, f / h * size.y, center_px.x, center_px.y};
     if (const std::string model = text_at(prim, "laterna:lensModel"); !model.empty()) {
       const auto parameters = prim.attributes.find("laterna:lensParameters");
       device.lens = {model, parameters == prim.attributes.end() ? std::vector<double>{}
-                                                                : numbers_in(parameters->second, file_)};
+                                                                : usd_numbers(parameters->second, file_)};
     }
-    device.device_from_world =
-        compose(view_from_device(), inverse(compose(prim.world_from_parent, prim.parent_from_prim)));
+    device.device_from_world = compose(view_from_device(), inverse(world_from(prim)));
     const std::string kind = text_at(prim, "laterna:kind");
     if (kind.empty())
       add_by_name(rig_, std::move(device));
@@ -258,6 +235,7 @@ std::string transform_text(const Rigid& world_from_camera) {
 std::string camera_text(const Device& d, const char* kind) {
   const Intrinsics& k = d.intrinsics;
   const double f = 50, w = f * k.size.x / k.fx, h = f * k.size.y / k.fy;
+  const glm::dvec2 offset = (0.5 - texture_from_pixel({k.cx, k.cy}, k.size)) * glm::dvec2(w, h);
   return fmt::format(
       "def Camera \"{}\"\n{{\n    token projection = \"perspective\"\n    float focalLength = {}\n"
       "    float horizontalAperture = {}\n    float verticalAperture = {}\n"
@@ -265,8 +243,7 @@ std::string camera_text(const Device& d, const char* kind) {
       "    matrix4d xformOp:transform = {}\n    uniform token[] xformOpOrder = [\"xformOp:transform\"]\n"
       "    custom int2 laterna:size = ({}, {})\n    custom string laterna:kind = \"{}\"\n"
       "    custom string laterna:lensModel = \"{}\"\n    custom double[] laterna:lensParameters = [{}]\n}}\n",
-      d.name, f, w, h, ((k.size.x - 1) / 2.0 - k.cx) / k.size.x * w,
-      (k.cy - (k.size.y - 1) / 2.0) / k.size.y * h,
+      d.name, f, w, h, offset.x, offset.y,
       transform_text(compose(inverse(d.device_from_world), view_from_device())), k.size.x, k.size.y, kind,
       d.lens.model, joined(d.lens.parameters));
 }

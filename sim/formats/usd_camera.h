@@ -8,9 +8,9 @@
 //   }
 //
 // There: a camera looks along -z, x right, y up; matrices act on row vectors, so that the translation is the
-// last row; lengths are in units of the stage's metersPerUnit (0.01 where it says none), lens lengths in a
-// tenth of it (only their ratios count here). The window seen is [offset - aperture/2, offset +
-// aperture/2]/focalLength, y up. Here:
+// last row (usd_transform.h has the other operations); lengths are in units of the stage's metersPerUnit
+// (0.01 where it says none), lens lengths in a tenth of it (only their ratios count here). The window seen is
+// [offset - aperture/2, offset + aperture/2]/focalLength, y up. Here:
 //   fx = focalLength/horizontalAperture·W      cx = (W-1)/2 - horizontalApertureOffset/horizontalAperture·W
 //   fy = focalLength/verticalAperture·H        cy = (H-1)/2 + verticalApertureOffset/verticalAperture·H
 //   device_from_world = diag(1, -1, -1)·inverse(world_from_camera)
@@ -26,9 +26,9 @@
 
 namespace laterna {
 
-/// Reads `def Camera` and, above them, prims with one xformOp:transform each (others stand where their
-/// parents do). Throws InputError, beginning with `file_name` and the line, also for other transforms, time
-/// samples and for a camera without a size of its own where `camera_size` is 0.
+/// Reads `def Camera` and what stands above them (usd_transform.h). Throws InputError, beginning with
+/// `file_name` and the line or the prim, also for transforms that are not rigid, time samples and for a
+/// camera without a size of its own where `camera_size` is 0.
 Rig parse_usd_cameras(const std::string& text, glm::ivec2 camera_size, const std::string& file_name);
 
 /// A stage in metres. Names become prims' names: what is no letter, digit or _ is an InputError.

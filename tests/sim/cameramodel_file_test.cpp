@@ -5,6 +5,7 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <numbers>
 
 namespace laterna {
@@ -62,6 +63,37 @@ TEST(CameramodelFile, SurvivesWritingAndReading) {
       EXPECT_NEAR(glm::distance(read.device_from_world.rotation[c], device.device_from_world.rotation[c]), 0,
                   1e-14);
     }
+  }
+}
+
+// By hand: u = fx·2·tan(θ/2)·x/r + cx. Of (3, 4, 0)·sin 60° + (0, 0, 5)·cos 60°, tan 30° = 1/√3.
+TEST(CameramodelFile, ReadsAStereographicLensByHand) {
+  std::string text = sound;
+  text.replace(text.find("LENSMODEL_OPENCV5"), 17, "LENSMODEL_STEREOGRAPHIC");
+  text.replace(text.find(", -0.05, 0.02, 0.001, -0.002, 0.003"), 35, "");
+  text.replace(text.find("[ 0, 0, 1.5707963267948966, 0.1, -0.2, 1.5 ]"), 44, "[ 0, 0, 0, 0, 0, 0 ]");
+  const Device device = parse_cameramodel(text, "x.cameramodel");
+  const double s = std::sqrt(3.0) / 2;
+  const auto pixel = LensProjection(device.intrinsics, device.lens).project({3 * s, 4 * s, 2.5});
+  ASSERT_TRUE(pixel);
+  // 1e-9 px: a few roundings of thousands of pixels.
+  EXPECT_NEAR(pixel->x, 639.5 + 1500.5 * 2 / std::sqrt(3.0) * 0.6, 1e-9);
+  EXPECT_NEAR(pixel->y, 399.75 + 1501.25 * 2 / std::sqrt(3.0) * 0.8, 1e-9);
+}
+
+TEST(CameramodelFile, EveryLensModelSurvives) {
+  auto random = testing::generator();
+  std::uniform_real_distribution<double> uniform(-1e-3, 1e-3);
+  for (const std::string model :
+       {"LENSMODEL_PINHOLE", "LENSMODEL_STEREOGRAPHIC", "LENSMODEL_OPENCV4", "LENSMODEL_OPENCV5",
+        "LENSMODEL_OPENCV8", "LENSMODEL_OPENCV12", "LENSMODEL_CAHVOR",
+        "LENSMODEL_SPLINED_STEREOGRAPHIC_order=3_Nx=6_Ny=5_fov_x_deg=60"}) {
+    Device device;
+    device.name = "x";
+    device.intrinsics = {{640, 480}, 800.25, 801, 1.0 / 3, 240};
+    device.lens.model = model;
+    for (int i = 0; i < lens_parameter_count(model); ++i) device.lens.parameters.push_back(uniform(random));
+    EXPECT_EQ(parse_cameramodel(cameramodel_text(device), "x").lens, device.lens) << model;
   }
 }
 

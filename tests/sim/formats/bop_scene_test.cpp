@@ -2,6 +2,7 @@
 
 #include "sim/formats/rig_file.h"
 #include "sim/image_file.h"
+#include "sim/text_file.h"
 #include "tests/sim/formats/rigs.h"
 
 #include <gmock/gmock.h>
@@ -14,6 +15,12 @@ namespace {
 
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
+
+// How much is seen of it, by hand: 12 pixels in all, of which 4 lie beyond the left edge.
+const char* const info_by_hand = R"({
+  "7": [{"bbox_obj": [-2, 0, 5, 1], "bbox_visib": [1, 0, 1, 0], "px_count_all": 12, "px_count_valid": 3,
+         "px_count_visib": 2, "visib_fract": 0.16666666666666666}]
+})";
 
 // A scene of 4 × 2 pixels by hand: a camera half a turn about x and 1.5 m away, an object two metres before
 // it.
@@ -37,6 +44,7 @@ void write_scene_by_hand(const fs::path& folder) {
   for (const char* kind : {"depth", "mask", "mask_visib"}) fs::create_directories(folder / kind);
   testing::write_text(folder / "scene_camera.json", cameras_by_hand);
   testing::write_text(folder / "scene_gt.json", poses_by_hand);
+  testing::write_text(folder / "scene_gt_info.json", info_by_hand);
   write_picture(folder / "depth" / "000007.png", image<std::uint16_t>({0, 3000, 4000, 65535, 1, 2, 3, 4}));
   write_picture(folder / "mask" / "000007_000000.png", image<std::uint8_t>({0, 255, 255, 255, 0, 255, 0, 0}));
   write_picture(folder / "mask_visib" / "000007_000000.png",
@@ -64,6 +72,25 @@ TEST(BopScene, ReadsAFolderByHand) {
   EXPECT_EQ(picture.objects[0].silhouette(3, 0), 255);
   EXPECT_EQ(picture.objects[0].visible(3, 0), 0);
   EXPECT_TRUE(picture.gray.values.empty());
+  ASSERT_TRUE(picture.objects[0].whole);
+  EXPECT_EQ(picture.objects[0].whole->count, 12);
+  EXPECT_EQ(picture.objects[0].whole->low, glm::ivec2(-2, 0));
+  EXPECT_EQ(picture.objects[0].whole->high, glm::ivec2(3, 1));
+}
+
+TEST(BopScene, WritesTheSameInfoAgain) {
+  const testing::ScratchFolder scratch;
+  fs::create_directories(scratch / "theirs");
+  write_scene_by_hand(scratch / "theirs");
+  Notes notes;
+  fs::create_directories(scratch / "ours");
+  write_bop_scene(scratch / "ours", read_bop_scene(scratch / "theirs"), notes);
+  const Tree written = Tree::parse(read_text(scratch / "ours" / "scene_gt_info.json", 4096));
+  // The silhouette has four pixels inside, (1..3, 0) and (1, 1), all with a depth; two are seen, (1, 0), (2,
+  // 0).
+  Tree expected = Tree::parse(info_by_hand)["7"];
+  expected[0]["px_count_valid"] = 4;
+  EXPECT_EQ(written["0"], expected);
 }
 
 TEST(BopScene, IsARigOfTheSizeOfItsPictures) {
@@ -107,6 +134,32 @@ TEST(BopScene, SurvivesARoundTrip) {
   EXPECT_EQ(read[1].camera.name, "far");
 }
 
+TEST(BopScene, AnObjectThatIsNotSeenHasNoBoxes) {
+  const testing::ScratchFolder scratch;
+  auto random = testing::generator();
+  BopPicture picture;
+  picture.camera = testing::random_device(random, "one", "LENSMODEL_PINHOLE", 0);
+  picture.camera.intrinsics.size = {4, 2};
+  picture.depth_m = image<float>({NAN, 1, 1, 1, 1, 1, 1, 1});
+  picture.objects = {{1,
+                      {},
+                      image<std::uint8_t>({255, 255, 0, 0, 0, 0, 0, 0}),
+                      image<std::uint8_t>({0, 0, 0, 0, 0, 0, 0, 0})}};
+  Notes notes;
+  write_bop_scene(scratch.path(), {picture}, notes);
+  const Tree info = Tree::parse(read_text(scratch / "scene_gt_info.json", 4096))["0"][0];
+  EXPECT_EQ(info["bbox_obj"], Tree({-1, -1, -1, -1}));
+  EXPECT_EQ(info["bbox_visib"], Tree({-1, -1, -1, -1}));
+  EXPECT_EQ(info["px_count_all"], 2);
+  EXPECT_EQ(info["px_count_valid"], 1);
+  EXPECT_EQ(info["visib_fract"], 0.0);
+  // Without masks nothing is known, and nothing is written.
+  picture.objects[0].visible = {};
+  fs::create_directories(scratch / "bare");
+  write_bop_scene(scratch / "bare", {picture}, notes);
+  EXPECT_FALSE(fs::exists(scratch / "bare" / "scene_gt_info.json"));
+}
+
 TEST(BopScene, BadFolders) {
   const testing::ScratchFolder scratch;
   write_scene_by_hand(scratch.path());
@@ -121,6 +174,11 @@ TEST(BopScene, BadFolders) {
   text.replace(text.find("0.5}"), 3, "0.0");
   testing::write_text(scratch / "scene_camera.json", text);
   EXPECT_THAT(error(), HasSubstr("7.depth_scale: found 0.0, expected a number above 0"));
+  write_scene_by_hand(scratch.path());
+  text = info_by_hand;
+  text.replace(text.find("[-2,"), 4, "[0.5,");
+  testing::write_text(scratch / "scene_gt_info.json", text);
+  EXPECT_THAT(error(), HasSubstr("7[0].bbox_obj: found [0.5,0,5,1], expected whole pixels"));
   testing::write_text(scratch / "scene_camera.json", "{\"seven\": {\"cam_K\": []}}");
   EXPECT_THAT(error(), HasSubstr("found \"seven\", expected a picture's number"));
 }

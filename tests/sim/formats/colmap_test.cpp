@@ -27,6 +27,29 @@ TEST(Colmap, ReadsTextsByHand) {
   EXPECT_PIXEL(rig_pixel(rig, "projector0", {0, 0, 1}), 319.5 + 1000 * 0.5 * 1.025, 239.5);
 }
 
+// Distortion terms in COLMAP's order: k1, k2, p1, p2, then k3 to k6; a rig's cameras are folders of pictures.
+TEST(Colmap, ReadsOpencvModelsByHand) {
+  const Rig rig = parse_colmap(
+      "1 OPENCV 640 480 500 600 320.5 240.5 0.1 0.2 0.01 0.02\n"
+      "2 FULL_OPENCV 640 480 500 600 320.5 240.5 0 0 0.01 0 0.3 0.4 0.5 0.6\n"
+      "3 RADIAL 640 480 500 320.5 240.5 0.1 0.2\n4 SIMPLE_PINHOLE 640 480 500 320.5 240.5\n",
+      // Half of the half angle: a quarter turn about z takes (x, y, z) to (-y, x, z).
+      "1 0.7071067811865476 0 0 0.7071067811865476 0 0 0 1 left/0001.png\n\n"
+      "2 1 0 0 0 0 0 0 2 right/0001.png\n\n3 1 0 0 0 0 0 0 3 radial.png\n\n4 1 0 0 0 0 0 0 4 simple.png\n\n",
+      "model");
+  double x = -0.2, y = 0.1;  // of (0.1, 0.2, 1), turned
+  const double r2 = 0.05, radial = 1 + 0.1 * r2 + 0.2 * r2 * r2;
+  EXPECT_PIXEL(rig_pixel(rig, "left_0001", {0.1, 0.2, 1}),
+               320 + 500 * (x * radial + 2 * 0.01 * x * y + 0.02 * (r2 + 2 * x * x)),
+               240 + 600 * (y * radial + 0.01 * (r2 + 2 * y * y) + 2 * 0.02 * x * y));
+  x = 0.1, y = 0.2;
+  const double rational = (1 + 0.3 * r2 * r2 * r2) / (1 + 0.4 * r2 + 0.5 * r2 * r2 + 0.6 * r2 * r2 * r2);
+  EXPECT_PIXEL(rig_pixel(rig, "right_0001", {0.1, 0.2, 1}), 320 + 500 * (x * rational + 2 * 0.01 * x * y),
+               240 + 600 * (y * rational + 0.01 * (r2 + 2 * y * y)));
+  EXPECT_PIXEL(rig_pixel(rig, "radial", {0.1, 0.2, 1}), 320 + 500 * x * radial, 240 + 500 * y * radial);
+  EXPECT_PIXEL(rig_pixel(rig, "simple", {0.1, 0.2, 1}), 320 + 500 * x, 240 + 500 * y);
+}
+
 TEST(Colmap, SurvivesARoundTrip) {
   auto random = testing::generator();
   const testing::ScratchFolder folder;

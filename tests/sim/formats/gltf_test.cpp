@@ -27,6 +27,20 @@ TEST(Gltf, ReadsAFileByHand) {
   EXPECT_PIXEL(rig_pixel(rig, "eye", {0.1, -1, 0.2}), 319.5 + 512 * 0.1, 255.5 - 512 * 0.2);
 }
 
+// A node by its matrix, column by column: the camera's right, up and back in the world, then where it stands.
+// It looks along the world's +x, up is +z: right is -y. Without aspectRatio pixels are square. Other
+// extensions are passed over.
+TEST(Gltf, ReadsAMatrixByHand) {
+  const Rig rig = parse_gltf(R"({"asset": {"version": "2.0"}, "extensionsUsed": ["KHR_lights_punctual"],
+    "cameras": [{"type": "perspective", "perspective": {"yfov": 0.9272952180016122, "znear": 0.1, "zfar": 9}}],
+    "nodes": [{"name": "proj", "camera": 0, "matrix": [0, -1, 0, 0,  0, 0, 1, 0,  -1, 0, 0, 0,  1, 2, 3, 1]},
+              {"name": "lamp", "extensions": {"KHR_lights_punctual": {"light": 0}}}]})",
+                             {640, 480}, "c.gltf");
+  ASSERT_EQ(rig.projectors.size(), 1u);
+  // (2, 1.9, 3.2) is 1 m ahead, 0.1 right, 0.2 up; f = 480/(2·0.5).
+  EXPECT_PIXEL(rig_pixel(rig, "proj", {2, 1.9, 3.2}), 319.5 + 480 * 0.1, 239.5 - 480 * 0.2);
+}
+
 TEST(Gltf, SurvivesARoundTripByItsBlock) {
   auto random = testing::generator();
   const Rig rig = testing::random_pair(random, "LENSMODEL_OPENCV8", 8);

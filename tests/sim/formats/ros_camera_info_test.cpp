@@ -42,6 +42,24 @@ TEST(RosCameraInfo, ReadsAFileByHand) {
                240 + 600 * 0.2 * radial);
 }
 
+// A stereo pair: the second stands 0.2 m to the right in the first's rectified frame (Tx = -f'·B = -400·0.2),
+// and its own axes are turned by a quarter about z against that frame: x_rectified = R·x_device = (-y, x, z).
+TEST(RosCameraInfo, ReadsWhereASecondDeviceStands) {
+  std::string text = by_hand;
+  text.replace(text.find("data: [1.0, 0.0, 0.0, 0.0, 1.0"), 51, "data: [0, -1, 0, 1, 0, 0, 0, 0, 1]");
+  text.replace(text.find("data: [500.0, 0.0, 320.0, 0.0, 0.0"), 74,
+               "data: [400, 0, 310, -80, 0, 400, 250, 0, 0, 0, 1, 0]");
+  text.replace(text.find("[0.1, 0.0, 0.0, 0.0, 0.2]"), 25, "[0, 0, 0, 0, 0]");
+  const Device device = parse_camera_info(text, "right.yaml");
+  // (0.1, 0.2, 1) is (-0.1, 0.2, 1) from it in rectified axes; x_device = Rᵀ·that = (0.2, 0.1, 1).
+  const glm::dvec2 pixel = WorldProjection(device).project({0.1, 0.2, 1});
+  EXPECT_PIXEL(pixel, 320 + 500 * 0.2, 240 + 600 * 0.1);
+  EXPECT_LT(glm::distance(center_in_world(device.device_from_world), glm::dvec3(0.2, 0, 0)), 1e-15);
+  text.replace(text.find("[400, 0, 310, -80"), 17, "[0, 0, 310, -80");
+  EXPECT_THAT(testing::input_error([&] { parse_camera_info(text, "right.yaml"); }),
+              HasSubstr("projection_matrix"));
+}
+
 TEST(RosCameraInfo, SurvivesARoundTripAsAFolder) {
   auto random = testing::generator();
   const testing::ScratchFolder folder;
