@@ -43,7 +43,7 @@ class Lines {
   }
   int whole_number(std::size_t i) const {
     const double value = number(i);
-    if (value != int(value)) fail(fmt::format("found \"{}\", expected a whole number", words_[i]));
+    if (!is_whole(value)) fail(fmt::format("found \"{}\", expected a whole number", words_[i]));
     return int(value);
   }
   [[noreturn]] void fail(const std::string& what) const {

@@ -36,6 +36,8 @@ bool read_number(std::string_view text, double& number) {
   return error == std::errc() && end == text.data() + text.size() && std::isfinite(number);
 }
 
+bool is_whole(double number) { return number == std::floor(number) && std::abs(number) <= 2e9; }
+
 void fail_at(const Place& place, const std::string& expected) {
   throw InputError(fmt::format("{}: found {}, expected {}", place.name, shown(*place.tree), expected));
 }
@@ -66,7 +68,7 @@ double Place::number() const {
 
 int Place::whole_number() const {
   const double value = number();
-  if (value != std::floor(value) || std::abs(value) > 2e9) fail_at(*this, "a whole number");
+  if (!is_whole(value)) fail_at(*this, "a whole number");
   return int(value);
 }
 

@@ -63,4 +63,7 @@ struct Place {
 /// A finite number of decimal text, the whole of it; none otherwise.
 bool read_number(std::string_view text, double& number);
 
+/// Whether a number is one that an int holds (within ±2e9).
+bool is_whole(double number);
+
 }  // namespace laterna

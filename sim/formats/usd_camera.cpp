@@ -185,7 +185,7 @@ class Reader {
       return camera_size_;
     }
     const std::vector<double> size = usd_numbers(found->second, file_);
-    if (size.size() != 2 || size[0] != int(size[0]) || size[1] != int(size[1]))
+    if (size.size() != 2 || !is_whole(size[0]) || !is_whole(size[1]))
       fail("laterna:size: expected width and height");
     return {int(size[0]), int(size[1])};
   }

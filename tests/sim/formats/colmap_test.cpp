@@ -71,6 +71,8 @@ TEST(Colmap, BadTexts) {
   };
   EXPECT_THAT(error("1 FISHEYE 640 480 1 1 1\n", images), HasSubstr("m/cameras.txt:1: model FISHEYE"));
   EXPECT_THAT(error("1 PINHOLE 640 480 1 1 1\n", images), HasSubstr("3 parameters of PINHOLE, expected 4"));
+  EXPECT_THAT(error("1 PINHOLE 640 21793109700 1 1 1 1\n", images),
+              HasSubstr("found \"21793109700\", expected a whole number"));
   EXPECT_THAT(error("1 PINHOLE 640\n", images), HasSubstr("expected CAMERA_ID"));
   EXPECT_THAT(error(cameras, "1 0 1 0 0 0 0 5 7 left.png\n"), HasSubstr("m/images.txt:1: camera 7"));
   EXPECT_THAT(error(cameras, "1 0 0 0 0 0 0 5 1 left.png\n"), HasSubstr("quaternion"));
