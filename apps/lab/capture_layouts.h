@@ -1,17 +1,14 @@
 // Which pictures of a sequence other people's calibrators read, in what order and under which names.
 //
 //   procam    capture_0/graycode_00.png, ...   procam-calibration: OpenCV's order of Gray codes, as here:
-//   columns'
-//             bits from the most significant, each with its inverse, then rows' bits, white, black
-//   scan3d    set_00/cam_01.png, ...           scan3d-capture: white, black, then the columns' and the rows'
-//   bits
-//             from the most significant, each with its inverse; projector_info.txt: width height
-//   slstudio  frameSeq_00/frameSeq_00.bmp, ... SLStudio's virtual camera, which reads frameSeq_*.bmp of a
-//   folder.
-//             Gray codes: white, black, then up to 10 bits of columns and 6 of rows, without inverses.
-//             Fringes (phase, multi_frequency): as here without white and black, step j showing cos(2πx/pitch
-//             - 2πj/N), so that the order of steps 1 to N - 1 is turned round. Other families as they were
-//             taken
+//             columns' bits from the most significant, each with its inverse, then rows' bits, white, black
+//   scan3d    set_00/cam_01.png, ...           scan3d-capture: white, black, then the columns' and the
+//             rows' bits from the most significant, each with its inverse; projector_info.txt: width height
+//   slstudio  frameSeq_00/frameSeq_00.bmp, ... SLStudio's virtual camera, which reads a folder's
+//             frameSeq_*.bmp. Gray codes: white, black, then up to 10 bits of columns and 6 of rows, without
+//             inverses. Fringes (phase, multi_frequency): as here without white and black, step j showing
+//             cos(2πx/pitch - 2πj/N), so that the order of steps 1 to N - 1 is turned round. Other families
+//             as they were taken
 //
 // Pixel centres stand at whole numbers in all of them: column code c is u = c. scan3d-capture centres its
 // code in the next power of two, and has as many bits for rows as for columns. Gray codes from column and row
