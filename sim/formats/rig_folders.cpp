@@ -42,6 +42,14 @@ std::vector<RigText> file_each(const Rig& rig, const std::string& ending, Text&&
   return texts;
 }
 
+// A device of each file; projectors by their names.
+template <class Read>
+Rig device_each(const fs::path& path, const std::string& ending, Read&& read_device) {
+  Rig rig;
+  for (const fs::path& file : files_at(path, ending)) add_by_name(rig, read_device(file));
+  return rig;
+}
+
 // The folder that holds both files, whichever of the three is named.
 fs::path colmap_folder(const fs::path& path) { return fs::is_directory(path) ? path : path.parent_path(); }
 
@@ -51,9 +59,7 @@ std::string text_of(const fs::path& path) { return read_text(path, most_tree_byt
 
 bool is_mrcal(const fs::path& path, const Tree&) { return is_or_holds(path, ".cameramodel"); }
 Rig read_mrcal(const fs::path& path, const RigReadOptions&) {
-  Rig rig;
-  for (const fs::path& file : files_at(path, ".cameramodel")) add_by_name(rig, read_cameramodel(file));
-  return rig;
+  return device_each(path, ".cameramodel", read_cameramodel);
 }
 std::vector<RigText> mrcal_texts(const Rig& rig, Notes& notes) {
   note_projectors(rig, "mrcal", notes);
@@ -79,10 +85,8 @@ bool is_ros(const fs::path& path, const Tree& tree) {
   return tree.is_object() && tree.contains("distortion_model");
 }
 Rig read_ros(const fs::path& path, const RigReadOptions&) {
-  Rig rig;
-  for (const fs::path& file : files_at(path, ".yaml"))
-    add_by_name(rig, parse_camera_info(text_of(file), file.string()));
-  return rig;
+  return device_each(path, ".yaml",
+                     [](const fs::path& file) { return parse_camera_info(text_of(file), file.string()); });
 }
 std::vector<RigText> ros_texts(const Rig& rig, Notes& notes) {
   note_projectors(rig, "ROS's camera_info", notes);
@@ -95,9 +99,7 @@ bool is_exr(const fs::path& path, const Tree&) {
   return !files.empty() && std::ptrdiff_t(files.size()) == std::distance(fs::directory_iterator(path), {});
 }
 Rig read_exr(const fs::path& path, const RigReadOptions&) {
-  Rig rig;
-  for (const fs::path& file : files_at(path, ".exr")) add_by_name(rig, read_exr_camera(file));
-  return rig;
+  return device_each(path, ".exr", read_exr_camera);
 }
 std::vector<RigText> exr_texts(const Rig& rig, Notes& notes) {
   note_projectors(rig, "EXR", notes);

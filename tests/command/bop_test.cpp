@@ -1,14 +1,10 @@
 // A simulated capture as a scene of BOP's, looked at as BOP's own tools would: K, poses, models and depth by
 // NumPy.
-#include "sim/formats/bop_scene.h"
-#include "sim/image_file.h"
-#include "sim/ply.h"
-#include "sim/text_file.h"
 #include "tests/command/run_command.h"
 #include "tests/testing.h"
 
 #include <fmt/format.h>
-#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include <cstdlib>

@@ -1,7 +1,6 @@
 // Captures in other calibrators' folders, decoded by the formulas that those tools publish, against the
 // truth.
 #include "sim/image_file.h"
-#include "sim/text_file.h"
 #include "tests/command/run_command.h"
 #include "tests/testing.h"
 
@@ -168,6 +167,9 @@ Decoded decode(const fs::path& folder, const std::string& tool, const std::strin
     result.worst = glm::max(result.worst, glm::abs(found - glm::dvec2(u.values[i], v.values[i])));
   }
   result.share = double(result.pixels) / std::max(1, lit);
+  ::testing::Test::RecordProperty(
+      "worst_px", fmt::format("{:.3f} {:.3f} of {} pixels, {:.3f} of the lit", result.worst.x, result.worst.y,
+                              result.pixels, result.share));
   return result;
 }
 
