@@ -15,6 +15,7 @@ struct Whites {
 
 Whites whites_of(const LightRows& rows) {
   Whites whites;
+  whites.lit.reserve(rows.region.size());
   for (std::size_t p = 0; p < rows.region.size(); ++p) {
     double white = rows.ambient_cd_per_m2[p];
     for (std::uint32_t e = rows.begin[p]; e < rows.begin[p + 1]; ++e) white += rows.entries[e].weight;
@@ -35,6 +36,7 @@ void append(const std::vector<double>& from, std::vector<double>& to) {
 double automatic_saturation_cd_per_m2(std::span<const ImageRows> images) {
   Whites all;
   for (const ImageRows& image : images) {
+    all.lit.reserve(all.lit.size() + std::size_t(image.size.x) * image.size.y);
     std::vector<Whites> parts(region_count(image));
     for_each_region(image, [&](const LightRows& rows, std::size_t index) { parts[index] = whites_of(rows); });
     for (const Whites& part : parts) append(part.lit, all.lit), append(part.constant, all.constant);

@@ -212,11 +212,7 @@ PixelArray<glm::dvec3> points_world(const SurfaceMap& surface, const Scene& scen
 
 PixelArray<glm::dvec3> normals_world(const SurfaceMap& surface, const RayScene& rays) {
   PixelArray<glm::dvec3> normals(surface.width, surface.height);
-  for (std::size_t p = 0; p < normals.values.size(); ++p) {
-    normals.values[p] = surface.hit(p)
-                            ? rays.plane(surface.object.values[p], surface.triangle.values[p]).normal_world
-                            : glm::dvec3(0.0);
-  }
+  for (std::size_t p = 0; p < normals.values.size(); ++p) normals.values[p] = normal_world(surface, rays, p);
   return normals;
 }
 

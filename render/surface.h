@@ -73,8 +73,14 @@ void trace_surface_tiles(const RayScene& rays, const CameraView& view, const Cam
 /// What each pixel sees in world coordinates, in metres; NaN where nothing is hit.
 PixelArray<glm::dvec3> points_world(const SurfaceMap& surface, const Scene& scene);
 
-/// The unit normal in the world of the flat triangle that each pixel sees, towards its front side; 0 where
-/// nothing is hit.
+/// The unit normal in the world of the flat triangle that entry p of the map sees, towards its front side; 0
+/// where nothing is hit.
+inline glm::dvec3 normal_world(const SurfaceMap& surface, const RayScene& rays, std::size_t p) {
+  return surface.hit(p) ? rays.plane(surface.object.values[p], surface.triangle.values[p]).normal_world
+                        : glm::dvec3(0.0);
+}
+
+/// The same for the whole map.
 PixelArray<glm::dvec3> normals_world(const SurfaceMap& surface, const RayScene& rays);
 
 }  // namespace laterna

@@ -27,17 +27,6 @@ namespace {
 
 constexpr std::array formats{"png", "tif", "pgm", "exr", "tif-pages"};
 
-void check_format(const std::string& format, const Scene& scene) {
-  if (std::find(formats.begin(), formats.end(), format) == formats.end())
-    throw InputError(fmt::format("--format: found \"{}\", expected {}", format, fmt::join(formats, ", ")));
-  for (const Camera& camera : scene.cameras) {
-    if (format == "pgm" && camera.sensor.bit_depth > 8)
-      throw InputError(
-          fmt::format("--format: pgm holds 8 bits, but camera \"{}\" has {}; expected another format",
-                      camera.device.name, camera.sensor.bit_depth));
-  }
-}
-
 /// The files of one sequence, relative to the folder.
 std::vector<std::string> file_names(const std::string& folder, const std::string& format, int pictures) {
   if (format == "tif-pages") return {folder + "/pages.tif"};
@@ -85,15 +74,19 @@ std::size_t bytes_of(const CapturedStack& stack) {
   return std::visit([](const auto& s) { return s.values.size() * sizeof(s.values[0]); }, stack);
 }
 
+// What a view is captured from.
+struct ViewRows {
+  double saturation_cd_per_m2;
+  ImageRows rows;
+};
+using RowsOfView = std::function<ViewRows(int camera, int projector)>;
+
 // One view to disk.
 CaptureSequence write_view(const Scene& scene, const SceneRays& rig, int camera, int projector,
-                           const std::filesystem::path& root, const CaptureOptions& options,
-                           StageTimes& times, const Progress& progress) {
-  const double saturation = saturation_cd_per_m2(scene, rig, camera, projector, times);
-  CapturedStack stack =
-      capture_rows(scene, camera, projector,
-                   rig_rows(scene, rig, camera, projector, samples_of(scene, camera, options.seed)),
-                   saturation, options.seed, times);
+                           const RowsOfView& rows_of, const std::filesystem::path& root,
+                           const CaptureOptions& options, StageTimes& times, const Progress& progress) {
+  const auto [saturation, rows] = rows_of(camera, projector);
+  CapturedStack stack = capture_rows(scene, camera, projector, rows, saturation, options.seed, times);
   const CaptureSequence sequence = describe(scene, camera, projector, saturation, options, count_of(stack));
   if (progress) {
     progress(
@@ -117,11 +110,10 @@ CaptureSequence write_view(const Scene& scene, const SceneRays& rig, int camera,
   return sequence;
 }
 
-}  // namespace
-
-CaptureManifest fill_capture(const SceneSpec& spec, const Scene& scene, const SceneRays& rig,
-                             const std::filesystem::path& folder, const std::filesystem::path& root,
-                             const CaptureOptions& options, StageTimes& times, const Progress& progress) {
+CaptureManifest fill(const SceneSpec& spec, const Scene& scene, const SceneRays& rig,
+                     const RowsOfView& rows_of, const std::filesystem::path& folder,
+                     const std::filesystem::path& root, const CaptureOptions& options, StageTimes& times,
+                     const Progress& progress) {
   check_format(options.format, scene);
   write_self_contained(spec, scene, folder, root);
   write_file(root / "matrices.json", matrices_json(scene).dump(2) + "\n");
@@ -129,9 +121,42 @@ CaptureManifest fill_capture(const SceneSpec& spec, const Scene& scene, const Sc
   if (options.truth) std::filesystem::create_directory(root / "truth");
   for (int camera = 0; camera < int(scene.cameras.size()); ++camera)
     for (int projector = 0; projector < int(scene.projectors.size()); ++projector)
-      manifest.sequences.push_back(write_view(scene, rig, camera, projector, root, options, times, progress));
+      manifest.sequences.push_back(
+          write_view(scene, rig, camera, projector, rows_of, root, options, times, progress));
   write_file(root / "manifest.json", manifest_json(manifest));
   return manifest;
+}
+
+}  // namespace
+
+void check_format(const std::string& format, const Scene& scene, const std::string& place) {
+  if (std::find(formats.begin(), formats.end(), format) == formats.end())
+    throw InputError(fmt::format("{}: found \"{}\", expected {}", place, format, fmt::join(formats, ", ")));
+  for (const Camera& camera : scene.cameras) {
+    if (format == "pgm" && camera.sensor.bit_depth > 8)
+      throw InputError(fmt::format("{}: pgm holds 8 bits, but camera \"{}\" has {}; expected another format",
+                                   place, camera.device.name, camera.sensor.bit_depth));
+  }
+}
+
+CaptureManifest fill_capture(const SceneSpec& spec, const Scene& scene, const SceneRays& rig,
+                             const std::filesystem::path& folder, const std::filesystem::path& root,
+                             const CaptureOptions& options, StageTimes& times, const Progress& progress) {
+  const RowsOfView rows_of = [&](int camera, int projector) -> ViewRows {
+    return {saturation_cd_per_m2(scene, rig, camera, projector, times),
+            rig_rows(scene, rig, camera, projector, samples_of(scene, camera, options.seed))};
+  };
+  return fill(spec, scene, rig, rows_of, folder, root, options, times, progress);
+}
+
+CaptureManifest fill_capture(const SceneSpec& spec, const Scene& scene, const Traced& traced,
+                             const std::filesystem::path& folder, const std::filesystem::path& root,
+                             const CaptureOptions& options, StageTimes& times, const Progress& progress) {
+  const RowsOfView rows_of = [&](int camera, int projector) -> ViewRows {
+    const View& view = traced.view(camera, projector);
+    return {view.saturation_cd_per_m2, view_rows(scene, traced, view, options.seed)};
+  };
+  return fill(spec, scene, traced, rows_of, folder, root, options, times, progress);
 }
 
 std::vector<std::string> write_capture(const SceneSpec& spec, const Scene& scene,

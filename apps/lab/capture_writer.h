@@ -18,6 +18,10 @@ struct CaptureOptions {
   std::function<void(int camera, int projector, const CapturedStack&)> on_view{};
 };
 
+/// Throws InputError, beginning with `place`, where there is no such format, or it does not hold a camera's
+/// numbers.
+void check_format(const std::string& format, const Scene& scene, const std::string& place = "--format");
+
 /// Captures every view of a scene into the new folder `target` (sim/capture_folder.h describes it). `folder`
 /// is where the scene file stands. Throws InputError where `target` exists or cannot be written; then nothing
 /// is left behind.
@@ -30,6 +34,12 @@ std::vector<std::string> write_capture(const SceneSpec& spec, const Scene& scene
 /// The same with the rig at hand, into the folder `root`, which exists and is the caller's to complete. Gives
 /// back the manifest that was written.
 CaptureManifest fill_capture(const SceneSpec& spec, const Scene& scene, const SceneRays& rig,
+                             const std::filesystem::path& folder, const std::filesystem::path& root,
+                             const CaptureOptions& options, StageTimes& times, const Progress& progress = {});
+
+/// The same with views that are traced and exposed: the same files, without tracing again what their maps
+/// tell.
+CaptureManifest fill_capture(const SceneSpec& spec, const Scene& scene, const Traced& traced,
                              const std::filesystem::path& folder, const std::filesystem::path& root,
                              const CaptureOptions& options, StageTimes& times, const Progress& progress = {});
 

@@ -32,16 +32,19 @@ double StageTimes::total() const {
   return sum;
 }
 
+const View& Traced::view(int camera, int projector) const {
+  return *std::find_if(views.begin(), views.end(),
+                       [&](const View& v) { return v.camera == camera && v.projector == projector; });
+}
+
 namespace {
 
 // Rows of direct light at pixel centres, with the black of the other projectors.
 ImageRows direct_view_rows(const Scene& scene, const Traced& traced, const View& view) {
   const SurfaceMap& surface = traced.surfaces[view.camera];
   std::vector<IdleLight> idle;
-  for (const IdleProjector& i : idle_projectors(scene, view.projector)) {
-    const auto same = [&](const View& v) { return v.camera == view.camera && v.projector == i.projector; };
-    idle.push_back({&std::find_if(traced.views.begin(), traced.views.end(), same)->light, i.share});
-  }
+  for (const IdleProjector& i : idle_projectors(scene, view.projector))
+    idle.push_back({&traced.view(view.camera, i.projector).light, i.share});
   return {{surface.width, surface.height}, [&scene, &surface, &view, idle](LightRows& rows) {
             direct_rows(surface, view.light, idle, scene.ambient_lx, rows);
           }};
@@ -124,7 +127,7 @@ double saturation_cd_per_m2(const Scene& scene, const SceneRays& rig, int camera
   return times.measure("exposure", [&] { return automatic_saturation_cd_per_m2({&rows, 1}); });
 }
 
-Traced trace(const Scene& given, StageTimes& times, const Progress& progress) {
+Traced trace_maps(const Scene& given, StageTimes& times, const Progress& progress) {
   Traced traced{make_rig(given, times), {}, {}, {}};
   const Scene& scene = traced.as_seen(given);
   const RayScene& rays = traced.rays;
@@ -147,6 +150,11 @@ Traced trace(const Scene& given, StageTimes& times, const Progress& progress) {
     times.measure("effects", [&] { apply_effects(traced.surfaces[c], lights, rays, scene, camera); });
     for (int p = 0; p < int(lights.size()); ++p) traced.views.push_back({c, p, std::move(lights[p]), 0});
   }
+  return traced;
+}
+
+void expose_views(const Scene& given, Traced& traced, StageTimes& times) {
+  const Scene& scene = traced.as_seen(given);
   for (View& view : traced.views) {
     const std::optional<double> fixed = fixed_saturation_cd_per_m2(scene.cameras[view.camera].sensor);
     view.saturation_cd_per_m2 = fixed ? *fixed : times.measure("exposure", [&] {
@@ -157,6 +165,11 @@ Traced trace(const Scene& given, StageTimes& times, const Progress& progress) {
       return automatic_saturation_cd_per_m2({&rows, 1});
     });
   }
+}
+
+Traced trace(const Scene& scene, StageTimes& times, const Progress& progress) {
+  Traced traced = trace_maps(scene, times, progress);
+  expose_views(scene, traced, times);
   return traced;
 }
 

@@ -64,11 +64,19 @@ struct Traced : SceneRays {
   std::vector<PixelArray<glm::dvec3>>
       points_world;         ///< one per camera: what each pixel sees, m; NaN where nothing
   std::vector<View> views;  ///< camera by camera, projector by projector
+
+  const View& view(int camera, int projector) const;
 };
 
-/// Traces every camera's surface and every projector's light on it, and chooses each view's exposure: the
-/// sensor's own, or automatic. Throws InputError where the scene has no projector or no camera.
+/// Traces every camera's surface and every projector's light on it, and exposes each view. Throws InputError
+/// where the scene has no projector or no camera.
 Traced trace(const Scene& scene, StageTimes& times, const Progress& progress = {});
+
+/// The same without exposure, for who may throw the maps away.
+Traced trace_maps(const Scene& scene, StageTimes& times, const Progress& progress = {});
+
+/// Chooses each view's exposure: the sensor's own, or automatic. `traced` is of `scene`.
+void expose_views(const Scene& scene, Traced& traced, StageTimes& times);
 
 /// What a row of tiles of a camera's image sees, and one projector's light on it, at pixel centres.
 struct Strip {

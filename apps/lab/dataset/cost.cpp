@@ -7,6 +7,7 @@
 
 #include <chrono>
 #include <fstream>
+#include <map>
 #include <string>
 
 namespace laterna {
@@ -40,19 +41,38 @@ void keep_cost(const std::filesystem::path& run_folder, const RunCost& cost) {
   std::ofstream(run_folder / "cost.jsonl", std::ios::app) << line.dump() + "\n";
 }
 
-RunCost all_costs(const DatasetFolder& folder) {
-  RunCost sum;
+namespace {
+
+void add(RunCost& sum, const RunCost& cost) {
+  sum.samples += cost.samples, sum.cpu_s += cost.cpu_s, sum.wall_s += cost.wall_s;
+}
+
+}  // namespace
+
+std::vector<RunCost> costs_by_threads(const DatasetFolder& folder) {
+  std::map<int, RunCost> sums;
   std::error_code failed;
   for (const auto& run : std::filesystem::directory_iterator(folder.root / "runs", failed)) {
     std::ifstream file(run.path() / "cost.jsonl");
     for (std::string line; std::getline(file, line);) {
       const nlohmann::json json = nlohmann::json::parse(line, nullptr, false);
       if (!json.is_object()) continue;  // cut short
-      sum.samples += json.value("samples", std::uint64_t{0});
-      sum.cpu_s += json.value("cpu_s", 0.0), sum.wall_s += json.value("wall_s", 0.0);
-      sum.threads = json.value("threads", 0);
+      const int threads = json.value("threads", 0);
+      RunCost& sum = sums[threads];
+      add(sum,
+          {json.value("samples", std::uint64_t{0}), json.value("cpu_s", 0.0), json.value("wall_s", 0.0)});
+      sum.threads = threads;
     }
   }
+  std::vector<RunCost> rising;
+  for (const auto& [threads, sum] : sums) rising.push_back(sum);
+  return rising;
+}
+
+RunCost sum_of(const std::vector<RunCost>& costs) {
+  RunCost sum;
+  for (const RunCost& cost : costs) add(sum, cost);
+  if (costs.size() == 1) sum.threads = costs[0].threads;
   return sum;
 }
 

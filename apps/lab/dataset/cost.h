@@ -4,6 +4,7 @@
 #include "apps/lab/dataset/dataset_folder.h"
 
 #include <cstdint>
+#include <vector>
 
 namespace laterna {
 
@@ -11,7 +12,7 @@ namespace laterna {
 struct RunCost {
   std::uint64_t samples = 0;
   double cpu_s = 0, wall_s = 0;
-  int threads = 0;  ///< of one run; of several, those of the last
+  int threads = 0;  ///< of each of them; 0 where they differ
 };
 
 /// Starts to count at its making.
@@ -28,7 +29,10 @@ class CostClock {
 /// Adds a line to the run's cost.jsonl.
 void keep_cost(const std::filesystem::path& run_folder, const RunCost& cost);
 
-/// The sum over all runs of all shards that ended; what a killed run took is not known.
-RunCost all_costs(const DatasetFolder& folder);
+/// What all runs of all shards that ended took, one sum for each number of threads, fewest threads first;
+/// what a killed run took is not known.
+std::vector<RunCost> costs_by_threads(const DatasetFolder& folder);
+
+RunCost sum_of(const std::vector<RunCost>& costs);
 
 }  // namespace laterna

@@ -25,14 +25,17 @@ std::string rejection_rows(const DatasetTotals& totals) {
   return rows;
 }
 
-std::string cost_lines(const DatasetTotals& totals, const RunCost& cost) {
-  if (cost.samples == 0) return "Not known: every run was killed.\n";
+std::string cost_lines(const DatasetTotals& totals, const std::vector<RunCost>& costs) {
+  if (costs.empty()) return "Not known: every run was killed.\n";
+  std::string lines =
+      "| threads of a run | samples timed | samples per second | CPU seconds a sample |\n|---|---|---|---|\n";
+  for (const RunCost& cost : costs)
+    lines += fmt::format("| {} | {} | {:.3g} | {:.3g} |\n", cost.threads, cost.samples,
+                         double(cost.samples) / cost.wall_s, cost.cpu_s / double(cost.samples));
   return fmt::format(
-      "{} samples were timed: {:.3g} CPU seconds and {:.3g} seconds each on {} threads; {:.4g} MB a "
-      "sample.\n\n"
-      "{}.\n",
-      cost.samples, cost.cpu_s / double(cost.samples), cost.wall_s / double(cost.samples), cost.threads,
-      1e-6 * double(totals.bytes) / double(totals.samples), million_text(totals, cost));
+      "{}\n{:.4g} MB a sample. {}. Runs of several shards at once add up, as far as processors and disk "
+      "go.\n",
+      lines, 1e-6 * double(totals.bytes) / double(totals.samples), million_text(totals, sum_of(costs)));
 }
 
 }  // namespace
@@ -45,7 +48,7 @@ std::string million_text(const DatasetTotals& totals, const RunCost& cost) {
 }
 
 std::string data_card(const DatasetSpec& spec, std::uint64_t seed, const DatasetTotals& totals,
-                      const RunCost& cost) {
+                      const std::vector<RunCost>& costs) {
   return fmt::format(
       R"(# {}
 
@@ -68,7 +71,7 @@ Kept is what has at least {} of each camera's pixels lit, and {} of each project
 
 `sample.json` (`sample.schema.json` says what is in it: drawn values, sensors, effects, matrices), the scene
 (`scene.toml`, self-contained), the pictures, `truth/*.npy` (projector u and v, depth, normal, object),
-`mask/*.png` (255 where both see), `correspondences/*.npy`. In `tars/` file `PATH` of sample `KEY` is `KEY.PATH` with dots for slashes.
+`mask/*.png` (255 where both see: u and v are told in shadow and beyond the picture, too), `correspondences/*.npy`. In `tars/` file `PATH` of sample `KEY` is `KEY.PATH` with dots for slashes.
 
 `checksums.txt` has a line per sample: `(cd samples/BLOCK/KEY && find . -type f -printf '%P\n' | LC_ALL=C sort | xargs sha256sum | sha256sum)`.
 
@@ -78,7 +81,7 @@ Kept is what has at least {} of each camera's pixels lit, and {} of each project
       spec.settings.name,
       spec.settings.description.empty() ? "A Laterna data set." : spec.settings.description, totals.samples,
       seed, totals.files, 1e-9 * double(totals.bytes), spec.settings.licence, distribution_rows(spec),
-      spec.reject.least_lit, spec.reject.least_projector, rejection_rows(totals), cost_lines(totals, cost));
+      spec.reject.least_lit, spec.reject.least_projector, rejection_rows(totals), cost_lines(totals, costs));
 }
 
 }  // namespace laterna

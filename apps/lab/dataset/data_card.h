@@ -17,9 +17,9 @@ struct DatasetTotals {
 };
 
 /// Markdown: description, licence, counts, distributions, rejections by reason, what a sample holds, how to
-/// read and check it, what it cost and what a million samples would.
+/// read and check it, what it cost, by the number of threads, and what a million samples would.
 std::string data_card(const DatasetSpec& spec, std::uint64_t seed, const DatasetTotals& totals,
-                      const RunCost& cost);
+                      const std::vector<RunCost>& costs_by_threads);
 
 /// "a million samples: 93 CPU-hours, 7.7 TB"; empty where no cost is known.
 std::string million_text(const DatasetTotals& totals, const RunCost& cost);

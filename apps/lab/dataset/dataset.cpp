@@ -115,9 +115,10 @@ void complete(const DatasetFolder& folder, const DatasetSpec& spec, const Datase
       add(outcome.totals, sample);
     }
   }
-  outcome.all_cost = all_costs(folder);
+  const std::vector<RunCost> costs = costs_by_threads(folder);
+  outcome.all_cost = sum_of(costs);
   write_file(folder.root / "sample.schema.json", sample_schema());
-  write_file(folder.root / "card.md", data_card(spec, options.seed, outcome.totals, outcome.all_cost));
+  write_file(folder.root / "card.md", data_card(spec, options.seed, outcome.totals, costs));
   write_file(folder.root / "checksums.txt", checksums);
   outcome.whole = true;
 }
@@ -145,6 +146,12 @@ std::vector<Job> jobs_of(const DatasetFolder& folder, const DatasetSpec& spec, c
   return jobs;
 }
 
+bool has_all(const DatasetFolder& folder, const DatasetOptions& options) {
+  for (auto k = std::uint64_t(options.shard); k < options.count; k += std::uint64_t(options.shards))
+    if (!folder.has(k)) return false;
+  return true;
+}
+
 void run_shard(const DatasetFolder& folder, const DatasetSpec& spec, const DatasetOptions& options,
                const Identity& identity, const Progress& progress, DatasetOutcome& outcome) {
   const fs::path run_folder = folder.run(options.shard, options.shards);
@@ -152,14 +159,21 @@ void run_shard(const DatasetFolder& folder, const DatasetSpec& spec, const Datas
   const FileLock lock(run_folder / ".lock", FileLock::Wait::no);
   std::atomic<std::uint64_t> made = 0;
   const CostClock clock;
-  const RunnerOptions runner{.folder = run_folder,
-                             .fingerprint = sha256_hex(identity.json.dump()),
-                             .resume = options.resume && fs::exists(run_folder / "journal.jsonl"),
-                             .noun = "samples",
-                             .stop_at_error = true,
-                             .most_deaths = std::numeric_limits<int>::max()};
+  const fs::path journal = run_folder / "journal.jsonl";
+  RunnerOptions runner{.folder = run_folder,
+                       .fingerprint = sha256_hex(identity.json.dump()),
+                       .resume = options.resume && fs::exists(journal),
+                       .noun = "samples",
+                       .stop_at_error = true,
+                       .most_deaths = std::numeric_limits<int>::max()};
   try {
-    outcome.interrupted = run_jobs(jobs_of(folder, spec, options, made), runner, progress).interrupted;
+    const std::vector<Job> jobs = jobs_of(folder, spec, options, made);
+    outcome.interrupted = run_jobs(jobs, runner, progress).interrupted;
+    if (!outcome.interrupted && !has_all(folder, options)) {  // some that the journal knows have gone since
+      fs::remove(journal);
+      runner.resume = false;
+      outcome.interrupted = run_jobs(jobs, runner, progress).interrupted;
+    }
   } catch (const InputError& error) {
     keep_cost(run_folder, clock.cost(made));
     throw InputError(fmt::format("{}; what is whole stays: --resume goes on", error.what()));

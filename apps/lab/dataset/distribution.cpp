@@ -30,8 +30,10 @@ bool is_row(const Json& json) {
   throw InputError(fmt::format("{}: {} is {}, expected {}", place, kind_of(d), value_of(d).dump(), expected));
 }
 
+// The difference of the ends must be a number, too.
 bool in_order(const Json& low, const Json& high, double above) {
-  return low.get<double>() <= high.get<double>() && low.get<double>() > above;
+  const double a = low.get<double>(), b = high.get<double>();
+  return a <= b && a > above && std::isfinite(b - a);
 }
 
 bool are_ends(const Json& ends, double above = -INFINITY) {
@@ -55,7 +57,7 @@ bool is_bell(const Json& v) {
 
 bool are_whole_ends(const Json& v) {
   return v.is_array() && v.size() == 2 && v[0].is_number_integer() && v[1].is_number_integer() &&
-         in_order(v[0], v[1], -INFINITY);
+         in_order(v[0], v[1], -INFINITY) && v[1].get<double>() - v[0].get<double>() < 0x1p62;
 }
 
 bool is_orbit(const Json& v) {

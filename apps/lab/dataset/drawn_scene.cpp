@@ -1,5 +1,6 @@
 #include "apps/lab/dataset/drawn_scene.h"
 
+#include "apps/lab/capture_writer.h"
 #include "sim/error.h"
 #include "sim/scene_build.h"
 #include "sim/scene_file.h"
@@ -56,7 +57,6 @@ SceneSpec scene_of(const DatasetSpec& spec, const DrawnValues& drawn) {
           fmt::format("present \"mesh.{}\": the scene has {} meshes", *mesh, scene.meshes.size()));
     scene.meshes.erase(scene.meshes.begin() + *mesh);
   }
-  if (scene.meshes.empty()) throw InputError("present: no mesh is left");
   return scene;
 }
 
@@ -76,7 +76,8 @@ DrawnValues drawn_with(const DatasetSpec& spec, std::uint64_t seed, std::size_t 
 std::string fault_of(const DatasetSpec& spec, const DrawnValues& drawn, bool with_files) {
   try {
     const SceneSpec scene = scene_of(spec, drawn);
-    if (with_files) build_scene(scene, spec.scene_file.parent_path());
+    if (with_files)
+      check_format(spec.settings.format, build_scene(scene, spec.scene_file.parent_path()), "format");
     return {};
   } catch (const InputError& error) {
     return error.what();
@@ -89,10 +90,14 @@ void check_ends(const DatasetSpec& spec, std::uint64_t seed) {
   const auto refuse = [&](std::size_t k, const std::string& fault) {
     throw InputError(fmt::format("{}: {}", spec.random[k].place, fault));
   };
-  const std::string fault = fault_of(spec, draw_values(spec, seed, 0, 0), true);
+  DrawnValues first = draw_values(spec, seed, 0, 0);
+  first.absent.clear();
+  const std::string fault = fault_of(spec, first, true);
   for (std::size_t k = 0; !fault.empty() && k < spec.random.size(); ++k)  // the key without which it is sound
     if (fault_of(spec, drawn_with(spec, seed, k, nullptr), true).empty()) refuse(k, fault);
   if (!fault.empty()) throw InputError(fault);
+  for (const PresentKey& key : spec.present) first.absent.push_back(key.mesh);
+  scene_of(spec, first);
   for (std::size_t k = 0; k < spec.random.size(); ++k) {
     const bool with_files = spec.random[k].distribution.contains("choice");
     for (const Json& end : ends_of(spec.random[k].distribution)) {

@@ -17,19 +17,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A drawn scene that was traced once.
+/// A drawn scene that was traced, not exposed.
 struct Attempt {
   DrawnSample sample;
   std::unique_ptr<const Scene> scene;  // what `traced` was made from
   Traced traced;
 };
 
-Attempt attempt_at(const DatasetSpec& spec, DrawnSample sample, std::uint64_t attempt) {
-  sample.drawn = draw_values(spec, sample.seed, sample.index, attempt);
-  sample.spec = with_names(scene_of(spec, sample.drawn));
+Attempt attempt_at(const DatasetSpec& spec, DrawnSample sample) {
   auto scene = std::make_unique<const Scene>(build_scene(sample.spec, spec.scene_file.parent_path()));
   StageTimes times;
-  Traced traced = trace(*scene, times);
+  Traced traced = trace_maps(*scene, times);
   sample.sights.clear();
   for (const View& view : traced.views) sample.sights.push_back(sight_of(*scene, traced, view));
   return {std::move(sample), std::move(scene), std::move(traced)};
@@ -46,7 +44,13 @@ Attempt draw_sample(const DatasetSpec& spec, std::uint64_t seed, std::uint64_t i
   DrawnSample sample;
   sample.key = sample_key(index), sample.seed = seed, sample.index = index;
   for (int k = 0; k < spec.reject.tries; ++k) {
-    Attempt attempt = attempt_at(spec, sample, std::uint64_t(k));
+    sample.drawn = draw_values(spec, seed, index, std::uint64_t(k));
+    sample.spec = with_names(scene_of(spec, sample.drawn));
+    if (sample.spec.meshes.empty()) {
+      ++sample.rejected["nothing_seen"];
+      continue;
+    }
+    Attempt attempt = attempt_at(spec, sample);
     const std::string reason = rejection(attempt.sample.sights, spec.reject);
     if (reason.empty()) {
       // 63 bits: a scene's and a command's seed are whole numbers of TOML and JSON.
@@ -74,15 +78,16 @@ void write_maps(const Attempt& attempt, const View& view, const CapturedStack& p
             {rows.size() / correspondence_columns.size(), correspondence_columns.size()});
 }
 
-void fill_sample(const DatasetSpec& spec, const Attempt& attempt, const fs::path& root) {
+void fill_sample(const DatasetSpec& spec, Attempt& attempt, const fs::path& root) {
   const Scene& scene = *attempt.scene;
   for (const char* folder : {"truth", "mask", "correspondences"}) make_folders(root / folder);
   CaptureOptions options{.seed = attempt.sample.capture_seed, .format = spec.settings.format, .truth = false};
   options.on_view = [&](int camera, int projector, const CapturedStack& pictures) {
-    const std::size_t k = std::size_t(camera) * scene.projectors.size() + std::size_t(projector);
-    write_maps(attempt, attempt.traced.views[k], pictures, spec.settings.correspondence_step_px, root);
+    write_maps(attempt, attempt.traced.view(camera, projector), pictures,
+               spec.settings.correspondence_step_px, root);
   };
   StageTimes times;
+  expose_views(scene, attempt.traced, times);
   const CaptureManifest manifest = fill_capture(attempt.sample.spec, scene, attempt.traced,
                                                 spec.scene_file.parent_path(), root, options, times);
   write_file(root / "sample.json", sample_record(attempt.sample, scene, manifest).dump(1) + "\n");
@@ -92,7 +97,7 @@ void fill_sample(const DatasetSpec& spec, const Attempt& attempt, const fs::path
 
 void make_sample(const DatasetSpec& spec, std::uint64_t seed, std::uint64_t index, const fs::path& target) {
   try {
-    const Attempt attempt = draw_sample(spec, seed, index);
+    Attempt attempt = draw_sample(spec, seed, index);
     make_folders(target.parent_path());
     PendingFolder pending(target);
     fill_sample(spec, attempt, pending.path());

@@ -24,12 +24,11 @@ Image<std::uint8_t> both_see_mask(const LightMap& light) {
 
 LargeVector<float> truth_map(const Traced& traced, const View& view) {
   const SurfaceMap& surface = traced.surfaces[view.camera];
-  const PixelArray<glm::dvec3> normals = normals_world(surface, traced.rays);
   constexpr std::size_t channels = truth_channels.size();
-  LargeVector<float> values(normals.values.size() * channels);
-  parallel_for(std::size_t(normals.height), [&](std::size_t y) {
-    for (std::size_t i = y * normals.width; i < (y + 1) * normals.width; ++i) {
-      const glm::dvec3 n = normals.values[i];
+  LargeVector<float> values(std::size_t(surface.width) * surface.height * channels);
+  parallel_for(std::size_t(surface.height), [&](std::size_t y) {
+    for (std::size_t i = y * surface.width; i < (y + 1) * surface.width; ++i) {
+      const glm::dvec3 n = normal_world(surface, traced.rays, i);
       const std::array<double, channels> of_pixel{view.light.u_px.values[i],
                                                   view.light.v_px.values[i],
                                                   surface.depth_m.values[i],

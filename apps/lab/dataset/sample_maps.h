@@ -18,9 +18,10 @@ inline constexpr std::array truth_channels{"projector_u", "projector_v", "depth_
                                            "normal_y",    "normal_z",    "object"};
 
 /// These numbers of what each pixel's centre sees, side by side, pixels row by row from the top: projector
-/// pixel (NaN where none), axial depth (NaN where nothing is seen), unit normal in the world (0 where nothing
-/// is seen), index of the mesh in the scene (-1: none). Uncompressed, since coding takes longer than the
-/// pictures do.
+/// pixel where the point is imaged (also in shadow or beyond the picture, where the mask is 0; NaN where
+/// nothing is seen or the projector's lens images nothing), axial depth (NaN where nothing is seen), unit
+/// normal in the world (0 where nothing is seen), index of the mesh in the scene (-1: none). Uncompressed,
+/// since coding takes longer than the pictures do.
 LargeVector<float> truth_map(const Traced& traced, const View& view);
 
 /// The columns of a correspondence table.

@@ -27,7 +27,9 @@ namespace {
 void TarWriter::Close::operator()(archive* a) const { archive_write_free(a); }
 
 TarWriter::TarWriter(const std::filesystem::path& path) : path_(path), archive_(archive_write_new()) {
+  constexpr int block_bytes = 1 << 20;  // written at a time
   if (archive_write_set_format_ustar(archive_.get()) != ARCHIVE_OK ||
+      archive_write_set_bytes_per_block(archive_.get(), block_bytes) != ARCHIVE_OK ||
       archive_write_open_filename(archive_.get(), path.c_str()) != ARCHIVE_OK)
     fail(path_, archive_.get());
 }

@@ -53,9 +53,12 @@ TEST(DatasetSpec, BadDistributionsAreOneSentence) {
   EXPECT_THAT(random_error("x = { uniform = [2, 1] }"),
               StartsWith("s.toml:3: random \"x\": uniform is [2,1]"));
   EXPECT_THAT(random_error("x = { uniform = [[1, 2], [3]] }"), HasSubstr("expected [low, high]"));
+  EXPECT_THAT(random_error("x = { uniform = [-1e308, 1e308] }"), HasSubstr("expected [low, high]"));
   EXPECT_THAT(random_error("x = { log_uniform = [0, 1] }"), HasSubstr("above 0"));
   EXPECT_THAT(random_error("x = { normal = [0, 1, 8, 9] }"), HasSubstr("some of the bell"));
   EXPECT_THAT(random_error("x = { whole = [1, 2.5] }"), HasSubstr("whole numbers"));
+  EXPECT_THAT(random_error("x = { whole = [-9223372036854775807, 9223372036854775807] }"),
+              HasSubstr("whole numbers"));
   EXPECT_THAT(random_error("x = { choice = [] }"), HasSubstr("a list"));
   EXPECT_THAT(random_error("x = { orbit = { around = [0, 0, 0] } }"), HasSubstr("elevation_deg"));
   EXPECT_THAT(random_error("x = { uniforn = [1, 2] }"), HasSubstr("expected one of uniform"));
@@ -79,6 +82,24 @@ TEST(DatasetSpec, TheSceneIsAskedAboutTheEndsBeforeAnythingIsMade) {
               HasSubstr("cone"));
   EXPECT_THAT(error_at("\"mesh.0.albedo_map\" = { choice = [\"\", \"none.png\"] }"), HasSubstr("none.png"));
   EXPECT_NO_THROW(check_ends(read_dataset_spec(scratch / "spec.toml"), 1));
+}
+
+TEST(DatasetSpec, TheSceneIsAskedAboutFormatAndAbsentMeshes) {
+  const ScratchFolder scratch;
+  testing::write_tiny_spec(scratch.path());
+  const auto check = [&](const std::string& line, const std::string& instead, const std::string& last = {}) {
+    std::string text = testing::tiny_spec + last;
+    text.replace(text.find(line), line.size(), instead);
+    check_ends(read_dataset_spec(testing::write_text(scratch / "other.toml", text)), 1);
+  };
+  EXPECT_THAT(input_error([&] { check("tar_samples = 2", "format = \"bmp\""); }),
+              StartsWith("format: found \"bmp\", expected png"));
+  const std::string pgm = "format = \"pgm\"", deep = "\"camera.sensor.bit_depth\" = { choice = [8, 10] }\n";
+  EXPECT_NO_THROW(check("tar_samples = 2", pgm));
+  EXPECT_THAT(input_error([&] { check("tar_samples = 2", pgm, deep); }),
+              AllOf(HasSubstr("other.toml:24: random"), HasSubstr("pgm holds 8 bits")));
+  EXPECT_THAT(input_error([&] { check("\"mesh.1\" = 0.8", "\"mesh.2\" = 0.8"); }),
+              HasSubstr("present \"mesh.2\": the scene has 2 meshes"));
 }
 
 TEST(DatasetSpec, DrawsLieInTheirDistributionsAndDependOnTheSampleAlone) {

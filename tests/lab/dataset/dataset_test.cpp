@@ -11,6 +11,7 @@
 
 #include <archive.h>
 #include <archive_entry.h>
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <valijson/adapters/nlohmann_json_adapter.hpp>
@@ -95,7 +96,8 @@ TEST(Dataset, HasAChecksumLinePerSampleSorted) {
   EXPECT_EQ(all[3], "00000003 " + sha256_hex(text));
   EXPECT_THAT(text_of(set.root / "card.md"),
               AllOf(HasSubstr("5 samples of seed 3"), HasSubstr("`camera.fov_x_deg` | uniform 30 to 60"),
-                    HasSubstr("CC0-1.0"), HasSubstr("A million samples: ")));
+                    HasSubstr("CC0-1.0"), HasSubstr("A million samples: "), HasSubstr("samples per second"),
+                    HasSubstr(fmt::format("\n| {} | 5 | ", thread_count()))));
 }
 
 TEST(Dataset, RecordsKeepTheirSchema) {
@@ -168,6 +170,21 @@ TEST(Dataset, ARigThatNeverSeesEndsWithItsReasons) {
   EXPECT_FALSE(fs::exists(scratch / "set" / "checksums.txt"));
 }
 
+TEST(Dataset, AttemptsWithoutAnyMeshAreCounted) {
+  const ScratchFolder scratch;
+  const auto with_share = [&](const char* share) {
+    std::string text = testing::tiny_spec;
+    const std::string line = "\"mesh.1\" = 0.8";
+    text.replace(text.find(line), line.size(), line + "\n\"mesh.0\" = " + share);
+    return testing::write_tiny_spec(scratch.path(), text.replace(text.find("0.8"), 3, share));
+  };
+  const DatasetOutcome half = make_dataset(with_share("0.5"), scratch / "half", words());
+  EXPECT_TRUE(half.whole);
+  EXPECT_GT(half.totals.rejected.at("nothing_seen"), 0u);
+  EXPECT_THAT(input_error([&] { make_dataset(with_share("0"), scratch / "none", words()); }),
+              HasSubstr("all of 100 attempts thrown away (nothing_seen 100)"));
+}
+
 /// The members of a tar file, in order.
 std::vector<std::pair<std::string, std::string>> members(const fs::path& path) {
   std::vector<std::pair<std::string, std::string>> all;
@@ -232,6 +249,17 @@ TEST(Dataset, PartsAreMergedWhenAllAreThere) {
   fs::remove(root / "checksums.txt");
   EXPECT_TRUE(make_dataset(set.spec, root, merge).whole);
   EXPECT_EQ(text_of(root / "checksums.txt"), text_of(set.root / "checksums.txt"));
+}
+
+TEST(Dataset, WhatHasGoneIsMadeAgain) {
+  const Made set;
+  const std::string sums = text_of(set.root / "checksums.txt");
+  for (const char* gone : {"samples/000001/00000003", "tars/tiny-000001.tar", "checksums.txt"})
+    fs::remove_all(set.root / gone);
+  DatasetOptions rest = words();
+  rest.resume = true;
+  EXPECT_EQ(make_dataset(set.spec, set.root, rest).made, 1u);
+  EXPECT_EQ(text_of(set.root / "checksums.txt"), sums);
 }
 
 TEST(Dataset, AnotherSetIsNotMixedIn) {
