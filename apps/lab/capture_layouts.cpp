@@ -62,7 +62,24 @@ std::vector<int> slstudio_gray_order(const PatternSequence& patterns, Notes& not
   return order;
 }
 
-std::vector<int> slstudio_fringe_order(const PatternSequence& patterns) {
+// Three steps of a sixteenth of the axis and three of all of it, of columns and rows.
+bool fits_slstudio(const PatternSequence& patterns) {
+  std::vector<std::pair<int, double>> found, expected;  // axis, pitch
+  for (const PatternGroup& group : pattern_groups(patterns)) {
+    if (group.kind != PatternGroup::Kind::fringe || group.count != 3) return false;
+    found.emplace_back(group.axis, group.pitch_px);
+  }
+  for (const int axis : {0, 1})
+    for (const double share : {16, 1}) expected.emplace_back(axis, patterns.projector_size[axis] / share);
+  return found == expected;
+}
+
+std::vector<int> slstudio_fringe_order(const PatternSequence& patterns, Notes& notes) {
+  if (!fits_slstudio(patterns))
+    notes.push_back(
+        "SLStudio's codec for calibration takes three steps of a sixteenth of the projector and three of all "
+        "of "
+        "it, along both axes: these fringes are others");
   std::vector<int> order;
   for (const PatternGroup& group : pattern_groups(patterns))
     for (int j = 0; j < group.count; ++j) order.push_back(group.first + (group.count - j) % group.count);
@@ -73,7 +90,7 @@ std::vector<int> slstudio_order(const PatternSequence& patterns, Notes& notes) {
   const PatternKind kind = patterns.parameters.kind;
   if (kind == PatternKind::gray) return slstudio_gray_order(patterns, notes);
   if (kind == PatternKind::phase || kind == PatternKind::multi_frequency)
-    return slstudio_fringe_order(patterns);
+    return slstudio_fringe_order(patterns, notes);
   notes.push_back("SLStudio has no codec for this family: the pictures stand as they were taken");
   std::vector<int> order(std::size_t(picture_count(patterns)));
   std::iota(order.begin(), order.end(), 0);
