@@ -176,8 +176,11 @@ ProjectorScore score_one(const ScoreTruth& truth, const Traced& traced, const Pr
                                              true_rig.projector.lens.model))
     evidence.suspects.push_back(*keystone);
   const double noise_px = std::isfinite(s.volume_bound_px) ? s.volume_bound_px : 0;
-  s.suspects = joined(geometric_suspects(result, make_probe(true_rig, alignment, surface), noise_px),
-                      evidence.suspects);
+  std::vector<Suspect> geometric;
+  if (s.status != Status::ok)
+    geometric =
+        geometric_suspects(result, make_probe(true_rig, alignment, surface), noise_px, evidence.decoded);
+  s.suspects = joined(std::move(geometric), std::move(evidence.suspects));
   return s;
 }
 
