@@ -138,6 +138,8 @@ std::vector<Verdict> planted_verdicts(int rigs, std::uint64_t seed) {
   return verdicts;
 }
 
+namespace {
+
 // What was said of a verdict: the first suspect, or for two mistakes whether both stand in front.
 std::string said(const Verdict& v) {
   if (v.named.empty()) return v.shows ? "nobody" : "unseen";
@@ -149,11 +151,34 @@ std::string said(const Verdict& v) {
   return both.contains(v.named[0]) ? "one of them" : v.named[0];
 }
 
+bool is_pair(const Verdict& v) { return v.planted.find(" + ") != std::string::npos; }
+
+}  // namespace
+
+std::map<std::string, double> named_rates(const std::vector<Verdict>& verdicts) {
+  std::map<std::string, std::pair<int, int>> counts;
+  for (const Verdict& v : verdicts) {
+    if (!v.shows || v.planted == "right" || v.planted == "noisy" || v.planted == "generally wrong") continue;
+    auto& [named, all] = counts[is_pair(v) ? "two mistakes" : v.planted];
+    named += said(v) == (is_pair(v) ? "both" : v.planted);
+    ++all;
+  }
+  std::map<std::string, double> rates;
+  for (const auto& [planted, count] : counts) rates[planted] = count.first / double(count.second);
+  return rates;
+}
+
+int falsely_named(const std::vector<Verdict>& verdicts) {
+  int named = 0;
+  for (const Verdict& v : verdicts)
+    named += !v.named.empty() && (v.planted == "right" || (v.planted == "noisy" && v.how != "10"));
+  return named;
+}
+
 void print_confusion(const std::vector<Verdict>& verdicts, std::ostream& out) {
   std::map<std::string, std::map<std::string, int>> table;
   for (const Verdict& v : verdicts) {
-    const bool is_pair = v.planted.find(" + ") != std::string::npos;
-    ++table[is_pair ? "two mistakes" : v.how.empty() ? v.planted : v.planted + " / " + v.how][said(v)];
+    ++table[is_pair(v) ? "two mistakes" : v.how.empty() ? v.planted : v.planted + " / " + v.how][said(v)];
   }
   for (const auto& [row, counts] : table) {
     out << fmt::format("{:<45}", row);

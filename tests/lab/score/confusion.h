@@ -4,7 +4,6 @@
 #include <iosfwd>
 #include <map>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace laterna::testing {
@@ -20,6 +19,13 @@ struct Verdict {
 /// Plants every mistake once in each of `rigs` random rigs, each written as one of the formats that hold it
 /// and read back, beside right and merely noisy results.
 std::vector<Verdict> planted_verdicts(int rigs, std::uint64_t seed);
+
+/// Of the mistakes that show, the share that is named first (of two mistakes: both in front); by name, pairs
+/// as "two mistakes".
+std::map<std::string, double> named_rates(const std::vector<Verdict>& verdicts);
+
+/// How many right results, and noisy ones up to three times the bound, have anybody named.
+int falsely_named(const std::vector<Verdict>& verdicts);
 
 /// Planted (and how) × first named, as a table for people.
 void print_confusion(const std::vector<Verdict>& verdicts, std::ostream& out);
