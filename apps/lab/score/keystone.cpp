@@ -97,20 +97,20 @@ struct Fit {
 Fit fitted_from(const Shares& start, const Misfit& misfit) {
   const auto within = [](double share) { return std::clamp(share, -0.01, 0.45); };
   Fit best{start, cv::norm(misfit(start), cv::NORM_L2SQR)};
-  double length = 1;
-  for (int iteration = 0; iteration < 12 && length > 0.1; ++iteration) {
+  bool helps = true;
+  for (int iteration = 0; iteration < 12 && helps; ++iteration) {
     constexpr double step = 1e-5;
     const auto [a, b] = best.shares;
     const cv::Mat at = misfit(best.shares);
     cv::Mat jacobian, move;
     cv::hconcat((misfit({a + step, b}) - at) / step, (misfit({a, b + step}) - at) / step, jacobian);
     if (!cv::solve(jacobian, -at, move, cv::DECOMP_SVD)) break;
-    for (length = 1; length > 0.1; length /= 2) {
-      const Shares next{within(a + length * move.at<double>(0)), within(b + length * move.at<double>(1))};
+    helps = false;
+    for (int halvings = 0; halvings < 4 && !helps; ++halvings, move /= 2) {
+      const Shares next{within(a + move.at<double>(0)), within(b + move.at<double>(1))};
       const double misfit_px2 = cv::norm(misfit(next), cv::NORM_L2SQR);
-      if (!(misfit_px2 < best.misfit_px2 * (1 - 1e-6))) continue;
-      best = {next, misfit_px2};
-      break;
+      helps = misfit_px2 < best.misfit_px2 * (1 - 1e-6);
+      if (helps) best = {next, misfit_px2};
     }
   }
   return best;

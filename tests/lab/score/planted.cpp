@@ -245,10 +245,11 @@ Planted two_mistakes(std::mt19937_64& random) {
     return p.suspect != "overscan" && p.suspect != "keystone" && p.suspect != "unconverged";
   };
   for (;;) {
-    const Planted first = all[one_of(random, all.size())], second = all[one_of(random, all.size())];
+    const Planted& first = all[one_of(random, all.size())];
+    const Planted& second = all[one_of(random, all.size())];
     if (!is_exact(first) || !is_exact(second) || first.suspect >= second.suspect) continue;
     return {first.suspect + " + " + second.suspect, first.how + " + " + second.how,
-            [=](Rig& r, const CalibratedRig& rig, Random& drawn) {
+            [first, second](Rig& r, const CalibratedRig& rig, Random& drawn) {
               first.make(r, rig, drawn);
               second.make(r, rig, drawn);
             }};
