@@ -27,9 +27,10 @@ void run_score(ScoreWords words, Common& common) {
     fmt::print("{}\n", score_json(scores).dump());
   else
     fmt::print("{}", score_text(scores));
-  const bool is_weak = std::any_of(scores.begin(), scores.end(),
-                                   [](const ProjectorScore& s) { return s.status == Status::weak; });
-  common.exit_code = scores.empty() ? exit_refused : is_weak ? exit_weak : exit_ok;
+  const auto has = [&](Status status) {
+    return std::any_of(scores.begin(), scores.end(), [&](const auto& s) { return s.status == status; });
+  };
+  common.exit_code = has(Status::refused) ? exit_refused : has(Status::weak) ? exit_weak : exit_ok;
 }
 
 }  // namespace

@@ -65,6 +65,41 @@ TEST(ScoreCommand, MissingAndForeignFilesAreOneSentence) {
   EXPECT_EQ(json::parse(refused.out)["status"], "refused");
 }
 
+TEST(ScoreCommand, UnsoundResultsAreOneSentence) {
+  const ScratchFolder scratch;
+  write_text(scratch / "small.toml", small);
+  const std::string device =
+      R"({"name": "left", "size": [320, 200], "fx": 400, "fy": 400, "cx": 160, "cy": 100)";
+  const std::string pose = R"(, "device_from_world": [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 2]]})";
+  const auto with = [](const std::string& devices) { return "{\"projectors\": [" + devices + "]}"; };
+  for (const auto& [result, words] :
+       {std::pair(std::string(), "empty"), std::pair(with(device + "}"), "no placement"),
+        std::pair(with(device + R"(, "fx": NaN)" + pose), "no JSON"),
+        std::pair(with(device + R"(, "fx": null)" + pose), "must be number"),
+        std::pair(with(device + R"(, "size": [0, 200])" + pose), "unusable size"),
+        std::pair(with(device + pose + ", " + device + pose), "second projector")}) {
+    write_text(scratch / "result.json", result);
+    const auto run = laterna("score small.toml result.json --json", scratch.path());
+    EXPECT_EQ(run.exit_code, 2) << result;
+    EXPECT_EQ(run.out, "");
+    EXPECT_THAT(run.err, HasSubstr(words));
+  }
+}
+
+TEST(ScoreCommand, ARefusedResultIsExplainedByItsPictures) {
+  const ScratchFolder scratch;
+  write_text(scratch / "small.toml", small);
+  ASSERT_EQ(laterna("capture small.toml -o capture", scratch.path()).exit_code, 0);
+  const auto pictures = scratch.path() / "capture/cam/left";
+  std::filesystem::rename(pictures / "02.png", pictures / "x.png");  // two stored out of order
+  std::filesystem::rename(pictures / "03.png", pictures / "02.png");
+  std::filesystem::rename(pictures / "x.png", pictures / "03.png");
+  ASSERT_EQ(laterna("calibrate capture -o left.json", scratch.path()).exit_code, 3);
+  const json scored = score_of("capture left.json", scratch, 3);
+  EXPECT_EQ(scored["status"], "refused");
+  EXPECT_EQ(scored["suspects"][0]["name"], "dropped_frame");
+}
+
 TEST(ScoreCommand, APictureThatIsMissingIsADroppedFrame) {
   const ScratchFolder scratch;
   write_text(scratch / "small.toml", small);

@@ -1,5 +1,7 @@
 #include "apps/lab/score/fitted.h"
 
+#include "apps/lab/score/keystone.h"
+
 #include <fmt/format.h>
 #include <opencv2/calib3d.hpp>
 
@@ -10,6 +12,8 @@
 namespace laterna {
 
 namespace {
+
+constexpr std::size_t fewest_points = 20;
 
 // Pixels of a result and true ones, side by side.
 struct Pairs {
@@ -51,23 +55,6 @@ void add_overscan(const std::vector<glm::dvec2>& pixels, const Pairs& pairs, con
   }
 }
 
-void add_skew(const ScoreRig& result, const std::vector<glm::dvec2>& pixels, const Pairs& pairs,
-              const Probe& probe, std::vector<FittedUndo>& found) {
-  const Intrinsics& k = result.projector.intrinsics;
-  const double cy = stretched({k.cx, k.cy}, k.size, probe.truth.projector.intrinsics.size).y;
-  double above = 0, below = 0;
-  for (std::size_t i = 0; i < pairs.found.size(); ++i) {
-    const double d = pairs.found[i].y - cy;
-    above += d * (pairs.expected[i].x - pairs.found[i].x), below += d * d;
-  }
-  const double slope = above / below;
-  found.push_back(
-      {"keystone", 1,
-       remaining_px2(pixels, probe,
-                     [=](const glm::dvec2& p) { return glm::dvec2(p.x + slope * (p.y - cy), p.y); }),
-       fmt::format("K lacks a skew of {:.4g} px", slope * k.fy)});
-}
-
 glm::dvec2 apply(const cv::Matx33d& h, const glm::dvec2& pixel) {
   const cv::Vec3d q = h * cv::Vec3d(pixel.x, pixel.y, 1);
   return glm::dvec2(q[0], q[1]) / q[2];
@@ -92,6 +79,22 @@ bool is_keystone(const cv::Matx33d& h, glm::ivec2 size) {
   return (*least > -1 && *most > 2 && *most < farthest) || (*most < 1 && *least < -2 && *least > -farthest);
 }
 
+// What the best zoom and shift along each axis leave: Σ|e|² about the regression lines, as a share of Σ|e|².
+double beyond_zoom_and_shift(const Pairs& pairs) {
+  const double n = double(pairs.found.size());
+  double left = 0, all = 0;
+  for (int axis = 0; axis < 2; ++axis) {
+    double x = 0, e = 0, xx = 0, xe = 0, ee = 0;
+    for (std::size_t i = 0; i < pairs.found.size(); ++i) {
+      const double found = pairs.found[i][axis], error = pairs.expected[i][axis] - found;
+      x += found, e += error, xx += found * found, xe += found * error, ee += error * error;
+    }
+    left += ee - e * e / n - std::pow(xe - x * e / n, 2) / (xx - x * x / n);
+    all += ee;
+  }
+  return left / all;
+}
+
 void add_homography(const std::vector<glm::dvec2>& pixels, const Pairs& pairs, const Probe& probe,
                     std::vector<FittedUndo>& found) {
   std::vector<cv::Point2d> from, to;
@@ -100,7 +103,7 @@ void add_homography(const std::vector<glm::dvec2>& pixels, const Pairs& pairs, c
   const cv::Mat fitted = cv::findHomography(from, to);
   if (fitted.empty()) return;
   const cv::Matx33d h = fitted;
-  if (!is_keystone(h, probe.truth.projector.intrinsics.size)) return;
+  if (!is_keystone(h, probe.truth.projector.intrinsics.size) || beyond_zoom_and_shift(pairs) < 0.1) return;
   found.push_back({"keystone", 8,
                    remaining_px2(pixels, probe, [&](const glm::dvec2& p) { return apply(h, p); }),
                    "the picture is warped by a homography"});
@@ -112,11 +115,21 @@ std::vector<FittedUndo> fitted_undoings(const ScoreRig& result, const Probe& pro
   const std::vector<glm::dvec2> pixels = result_pixels(result, probe);
   const Pairs pairs = usable(pixels, probe);
   std::vector<FittedUndo> found;
-  if (pairs.found.size() < 20) return found;
+  if (pairs.found.size() < fewest_points) return found;
   add_overscan(pixels, pairs, probe, found);
-  add_skew(result, pixels, pairs, probe, found);
   add_homography(pixels, pairs, probe, found);
+  if (const auto keystone = keystone_of(result, probe))
+    found.push_back({"keystone", 2, keystone->remaining_px2, keystone->words});
   return found;
+}
+
+double without_overscan_px2(const std::vector<glm::dvec2>& pixels, const Probe& probe) {
+  double least = squared_error_px2(pixels, probe);
+  const Pairs pairs = usable(pixels, probe);
+  std::vector<FittedUndo> found;
+  if (pairs.found.size() >= fewest_points) add_overscan(pixels, pairs, probe, found);
+  for (const FittedUndo& undo : found) least = std::min(least, undo.remaining_px2);
+  return least;
 }
 
 }  // namespace laterna

@@ -23,14 +23,16 @@ struct FittedUndo {
 ///   each.
 ///             An error of the focal lengths alone looks the same where the centre is in the picture's
 ///             middle.
-///   keystone  a skew of K (u_true = u + s·(v - cy)/fy: the free 11-parameter matrix about the same centre
-///   that
-///             the exported K could not hold); or a homography of the picture, as electronic keystone is,
-///             that moves all four corners inwards, or all four outwards, by up to half of the picture, some
-///             by more than 2 px and none by more than 1 px the other way. About a fixed centre a homography
-///             explains any error of K and R; what else it must do keeps it from explaining chance.
+///   keystone  an edge drawn in (keystone.h); or any homography of the picture about the same centre that
+///             moves all four corners inwards, or all four outwards, by up to half of the picture, some by
+///             more than 2 px and none by more than 1 px the other way, and of which zoom and shift explain
+///             less than nine tenths. About a fixed centre a homography explains any error of K and R; what
+///             else it must do keeps it from explaining a projector that was turned, or chance.
 ///
 /// Nothing is fitted where fewer than 20 points remain.
 std::vector<FittedUndo> fitted_undoings(const ScoreRig& result, const Probe& probe);
+
+/// What the better overscan of the two leaves of pixels that a result gives to all points of a probe.
+double without_overscan_px2(const std::vector<glm::dvec2>& pixels, const Probe& probe);
 
 }  // namespace laterna

@@ -15,14 +15,17 @@ Probe make_probe(const ScoreRig& truth, const Alignment& alignment,
   const Device& device = truth.projector;
   const std::vector<double> depths = depths_of(device, surface_points);
   if (depths.empty()) throw InputError("no surface point lies in front of the true projector, expected some");
-  Probe probe{truth, alignment, {}, {}, glm::length(glm::dvec2(device.intrinsics.size))};
+  Probe probe{truth, alignment};
+  probe.diagonal_px = glm::length(glm::dvec2(device.intrinsics.size));
   std::vector<glm::dvec3> points = image_grid(device, volume_depths(depths));
+  const std::size_t volume_points = points.size();
   for (const std::size_t i : evenly_spread(surface_points.size(), 2000)) points.push_back(surface_points[i]);
   const WorldProjection projection(device);
-  for (const glm::dvec3& x : points) {
-    const glm::dvec2 pixel(projection.project(x));
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (i == volume_points) probe.surface_begin = probe.points_world.size();
+    const glm::dvec2 pixel(projection.project(points[i]));
     if (!std::isfinite(pixel.x + pixel.y)) continue;
-    probe.points_world.push_back(x);
+    probe.points_world.push_back(points[i]);
     probe.true_pixels.push_back(pixel);
   }
   return probe;
@@ -42,6 +45,31 @@ std::vector<glm::dvec2> result_pixels(const ScoreRig& result, const ScoreRig& tr
   std::transform(points_world.begin(), points_world.end(), pixels.begin(), [&](const glm::dvec3& x) {
     return stretched(glm::dvec2(projection.project(x)), projector->intrinsics.size, size);
   });
+  return pixels;
+}
+
+std::vector<glm::dvec2> quick_pixels(const Device& device, std::span<const glm::dvec3> points_world) {
+  const LensGradient lens(device.lens.model);
+  const Intrinsics& k = device.intrinsics;
+  std::vector<double> parameters{k.fx, k.fy, k.cx, k.cy};
+  parameters.insert(parameters.end(), device.lens.parameters.begin(), device.lens.parameters.end());
+  std::vector<glm::dvec2> pixels(points_world.size(), glm::dvec2(std::numeric_limits<double>::quiet_NaN()));
+  double pixel[2];
+  for (std::size_t i = 0; i < pixels.size(); ++i)
+    if (lens.project(parameters, apply(device.device_from_world, points_world[i]), pixel, nullptr, nullptr))
+      pixels[i] = {pixel[0], pixel[1]};
+  return pixels;
+}
+
+std::vector<glm::dvec2> result_pixels(const ScoreRig& result, const Probe& probe) {
+  const auto projector = align(result, probe.truth, probe.alignment);
+  if (!projector)
+    return std::vector<glm::dvec2>(probe.points_world.size(),
+                                   glm::dvec2(std::numeric_limits<double>::quiet_NaN()));
+  std::vector<glm::dvec2> pixels = quick_pixels(*projector, probe.points_world);
+  const glm::ivec2 from = projector->intrinsics.size, to = probe.truth.projector.intrinsics.size;
+  if (from != to)
+    for (glm::dvec2& pixel : pixels) pixel = stretched(pixel, from, to);
   return pixels;
 }
 

@@ -15,8 +15,9 @@ namespace laterna {
 struct Probe {
   ScoreRig truth;
   Alignment alignment;
-  std::vector<glm::dvec3> points_world;
-  std::vector<glm::dvec2> true_pixels;
+  std::vector<glm::dvec3> points_world{};
+  std::vector<glm::dvec2> true_pixels{};
+  std::size_t surface_begin = 0;  ///< points before it are the volume's, from it on the surface's
   double diagonal_px = 0;
 };
 
@@ -33,9 +34,10 @@ glm::dvec2 stretched(const glm::dvec2& pixel, glm::ivec2 from, glm::ivec2 to);
 /// aligned.
 std::vector<glm::dvec2> result_pixels(const ScoreRig& result, const ScoreRig& truth,
                                       const Alignment& alignment, std::span<const glm::dvec3> points_world);
-inline std::vector<glm::dvec2> result_pixels(const ScoreRig& result, const Probe& probe) {
-  return result_pixels(result, probe.truth, probe.alignment, probe.points_world);
-}
+/// The same at the probe's points without looking for the lens's fold (sim/lens.h), which takes longer than
+/// the points: for trying one mistake after the other.
+std::vector<glm::dvec2> result_pixels(const ScoreRig& result, const Probe& probe);
+std::vector<glm::dvec2> quick_pixels(const Device& device, std::span<const glm::dvec3> points_world);
 
 /// mean(min(|e|², diagonal²)), px².
 double squared_error_px2(std::span<const glm::dvec2> pixels, std::span<const glm::dvec2> true_pixels,

@@ -27,6 +27,18 @@ int projector_index(const Scene& scene, const Rig& rig, const Device& projector)
   throw InputError(fmt::format("the scene has no projector \"{}\", which the result names", projector.name));
 }
 
+// Of each projector of the result. Throws where one is unknown, or named twice.
+std::vector<int> projector_indices(const Scene& scene, const Rig& rig) {
+  std::vector<int> indices;
+  for (const Device& projector : rig.projectors) {
+    const int p = projector_index(scene, rig, projector);
+    if (std::find(indices.begin(), indices.end(), p) != indices.end())
+      throw InputError(fmt::format("the result has a second projector \"{}\"", projector.name));
+    indices.push_back(p);
+  }
+  return indices;
+}
+
 // The camera that both know, for the truth and for the result; the scene's first where the result has none.
 std::pair<std::optional<Device>, std::optional<Device>> cameras(const Scene& scene, const Rig& rig) {
   for (const Device& camera : rig.cameras)
@@ -130,6 +142,18 @@ Predicted predict(const ScoreTruth& truth, const Traced& traced, const ScoreOpti
   return predicted;
 }
 
+PictureEvidence evidence_of(const ScoreTruth& truth, const Traced& traced, const Predicted& predicted,
+                            int p) {
+  PictureEvidence evidence = predicted.evidence[p];
+  if (!truth.folder.empty())
+    for (const View& view : traced.views)
+      if (view.projector == p) add_folder_evidence(truth, traced, view, evidence);
+  const Device& device = truth.scene.projectors[p].device;
+  if (const auto keystone = keystone_suspect(evidence.decoded, device.intrinsics.size, device.lens.model))
+    evidence.suspects.push_back(*keystone);
+  return evidence;
+}
+
 bool is_within(double error_px, double bound_px, double tolerance_px) {
   return error_px <= std::max(tolerance_px, std::isfinite(bound_px) ? beyond_noise * bound_px : 0.0);
 }
@@ -144,6 +168,21 @@ std::vector<Suspect> joined(std::vector<Suspect> a, std::vector<Suspect> b) {
       a.push_back(std::move(suspect));
   }
   return a;
+}
+
+// Nothing was recovered; what the pictures say may be why.
+std::vector<ProjectorScore> refused_scores(const ScoreTruth& truth, const Traced& traced,
+                                           const Predicted& predicted, const Alignment& alignment) {
+  std::vector<ProjectorScore> scores;
+  for (int p = 0; p < int(truth.scene.projectors.size()); ++p) {
+    ProjectorScore s{truth.scene.projectors[p].device.name};
+    s.alignment = alignment;
+    s.surface_error_px = s.volume_error_px = s.surface_error_mm = nan;
+    s.surface_bound_px = s.volume_bound_px = s.predicted_volume_px = nan;
+    s.suspects = joined({}, evidence_of(truth, traced, predicted, p).suspects);
+    scores.push_back(std::move(s));
+  }
+  return scores;
 }
 
 ProjectorScore score_one(const ScoreTruth& truth, const Traced& traced, const Predicted& predicted, int p,
@@ -164,20 +203,19 @@ ProjectorScore score_one(const ScoreTruth& truth, const Traced& traced, const Pr
   const bool has_bound = !predicted.outcomes.empty() && !predicted.outcomes[p].solve.covariance.empty();
   s.surface_bound_px = has_bound ? predicted.outcomes[p].verification.surface.predicted_rms : nan;
   s.volume_bound_px = has_bound ? predicted.outcomes[p].verification.volume.predicted_rms : nan;
-  s.status = is_within(s.surface_error_px, s.surface_bound_px, options.tolerance_px) &&
-                     is_within(s.volume_error_px, s.volume_bound_px, options.tolerance_px)
+  // Where this scene's pictures are too bad for Laterna's own solve, their noise excuses nothing.
+  const bool excuses = has_bound && predicted.outcomes[p].solve.status == Status::ok;
+  s.status = is_within(s.surface_error_px, excuses ? s.surface_bound_px : 0, options.tolerance_px) &&
+                     is_within(s.volume_error_px, excuses ? s.volume_bound_px : 0, options.tolerance_px)
                  ? Status::ok
                  : Status::weak;
-  PictureEvidence evidence = predicted.evidence[p];
-  if (!truth.folder.empty())
-    for (const View& view : traced.views)
-      if (view.projector == p) add_folder_evidence(truth, traced, view, evidence);
-  if (const auto keystone = keystone_suspect(evidence.decoded, true_rig.projector.intrinsics.size,
-                                             true_rig.projector.lens.model))
-    evidence.suspects.push_back(*keystone);
-  const double noise_px = std::isfinite(s.volume_bound_px) ? s.volume_bound_px : 0;
-  s.suspects = joined(geometric_suspects(result, make_probe(true_rig, alignment, surface), noise_px),
-                      evidence.suspects);
+  PictureEvidence evidence = evidence_of(truth, traced, predicted, p);
+  const double noise_px = excuses ? s.volume_bound_px : 0;
+  std::vector<Suspect> geometric;
+  if (s.status != Status::ok)
+    geometric =
+        geometric_suspects(result, make_probe(true_rig, alignment, surface), noise_px, evidence.decoded);
+  s.suspects = joined(std::move(geometric), std::move(evidence.suspects));
   return s;
 }
 
@@ -202,16 +240,17 @@ ScoreTruth read_score_truth(const std::filesystem::path& path) {
 
 std::vector<ProjectorScore> score(const ScoreTruth& truth, const ScoreResult& result,
                                   const ScoreOptions& options, const Progress& progress) {
-  if (result.rig.projectors.empty()) return {};
+  const std::vector<int> indices = projector_indices(truth.scene, result.rig);
   StageTimes times;
   const Traced traced = trace(truth.scene, times, progress);
   const auto [true_camera, camera] = cameras(truth.scene, result.rig);
   const Alignment alignment = options.alignment.value_or(Alignment{camera.has_value(), false});
   const Predicted predicted = predict(truth, traced, options, progress);
+  if (result.rig.projectors.empty()) return refused_scores(truth, traced, predicted, alignment);
   std::vector<ProjectorScore> scores;
   for (std::size_t i = 0; i < result.rig.projectors.size(); ++i) {
     const Device& projector = result.rig.projectors[i];
-    const int p = projector_index(truth.scene, result.rig, projector);
+    const int p = indices[i];
     const ScoreRig true_rig{true_camera, truth.scene.projectors[p].device};
     scores.push_back(
         score_one(truth, traced, predicted, p, {camera, projector}, true_rig, alignment, options));

@@ -42,7 +42,9 @@ struct ScoreOptions {
 /// no larger than its picture's diagonal (probe.h).
 struct ProjectorScore {
   std::string name;
-  Status status = Status::refused;  ///< ok: both errors are below max(5·bound, tolerance); else weak
+  /// ok: both errors are below max(5·bound, tolerance), or below the tolerance where the trial that gives the
+  /// bound is not ok itself; else weak.
+  Status status = Status::refused;
   double surface_error_px = 0, volume_error_px = 0;
   /// rms over the surface points of the distance between the point and the result's ray of the true pixel:
   /// how far light that is meant for the point misses it.
@@ -53,20 +55,21 @@ struct ProjectorScore {
   double surface_bound_px = 0, volume_bound_px = 0;
   double predicted_volume_px = 0;  ///< what the result's own covariance predicts; NaN without one
   Alignment alignment{};
-  std::vector<Suspect> suspects{};  ///< most likely first; of geometry and, where they are there, of pictures
+  /// Most likely first: of geometry, where the status is not ok, and of pictures, where they are there.
+  std::vector<Suspect> suspects{};
 };
 
 /// Scores each projector of the result that the scene has: the one of its name, or the only one on either
 /// side. Pictures are those of the capture folder; of a scene alone, those that the trial takes. A picture
 /// that the folder's manifest lists and that is not there is a dropped frame. Throws InputError where names
-/// do not match or the scene's projector lights nothing that a camera sees.
+/// do not match or the scene's projector lights nothing that a camera sees. A result without projectors (all
+/// were refused) gives a refused score for each of the scene's, errors NaN, with the pictures' suspects.
 std::vector<ProjectorScore> score(const ScoreTruth& truth, const ScoreResult& result,
                                   const ScoreOptions& options = {}, const Progress& progress = {});
 
 /// {"status", "surface_error_px", "volume_error_px", "surface_error_mm", "suspects": [{"name", "explains"}],
 /// "bound": {"surface_px", "volume_px"}, "predicted_volume_px", "alignment"} of the projector with the
 /// largest volume error, and "projectors": the same of each with "name". Numbers that are not known are null.
-/// Of an empty list (all were refused) the status is "refused", errors are null.
 nlohmann::json score_json(const std::vector<ProjectorScore>& scores);
 
 /// The same for people, with a sentence on what to change.

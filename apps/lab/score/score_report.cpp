@@ -39,7 +39,16 @@ const ProjectorScore& worst(const std::vector<ProjectorScore>& scores) {
   });
 }
 
+std::string suspects_of(const ProjectorScore& s) {
+  std::string text;
+  for (const Suspect& suspect : s.suspects)
+    text += fmt::format("  {} explains {:.1f} %: {}\n", suspect.name, 100 * suspect.explains, suspect.words);
+  return text;
+}
+
 std::string words_of(const ProjectorScore& s) {
+  if (s.status == Status::refused)
+    return fmt::format("projector \"{}\": the result says that it was refused\n{}", s.name, suspects_of(s));
   std::string text = fmt::format(
       "projector \"{}\" (aligned: {})\n"
       "  error                 rms   noise predicts\n"
@@ -50,8 +59,7 @@ std::string words_of(const ProjectorScore& s) {
       s.name, alignment_word(s.alignment), s.surface_error_px, s.surface_bound_px, s.volume_error_px,
       s.volume_bound_px, s.surface_error_mm, status_word(s.status),
       s.status == Status::weak ? ": wrong by more than noise explains" : "");
-  for (const Suspect& suspect : s.suspects)
-    text += fmt::format("  {} explains {:.1f} %: {}\n", suspect.name, 100 * suspect.explains, suspect.words);
+  text += suspects_of(s);
   if (s.status == Status::weak && s.suspects.empty()) text += "  none of the usual suspects explains it\n";
   return text;
 }
@@ -59,10 +67,6 @@ std::string words_of(const ProjectorScore& s) {
 }  // namespace
 
 Json score_json(const std::vector<ProjectorScore>& scores) {
-  if (scores.empty()) {
-    return {{"status", "refused"},         {"surface_error_px", nullptr}, {"volume_error_px", nullptr},
-            {"surface_error_mm", nullptr}, {"suspects", Json::array()},   {"projectors", Json::array()}};
-  }
   Json json = entry(worst(scores));
   json["projectors"] = Json::array();
   for (const ProjectorScore& s : scores) {
@@ -75,7 +79,7 @@ Json score_json(const std::vector<ProjectorScore>& scores) {
 std::string score_text(const std::vector<ProjectorScore>& scores) {
   std::string text;
   for (const ProjectorScore& s : scores) text += words_of(s);
-  return scores.empty() ? "the result holds no projector that was not refused\n" : text;
+  return text;
 }
 
 }  // namespace laterna

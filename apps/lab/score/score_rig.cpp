@@ -58,6 +58,9 @@ ScoreResult from_estimate(const Json& json) {
   for (const Json& projector : json.at("projectors")) {
     const Json& entry = projector.contains("estimate") ? projector.at("estimate") : projector;
     if (entry.is_null() || entry.value("status", "ok") == "refused") continue;
+    if (!entry.contains("device_from_world") && !entry.contains("device_from_camera"))
+      throw InputError(fmt::format("\"{}\": no placement, expected device_from_world or device_from_camera",
+                                   entry.value("name", "")));
     result.rig.projectors.push_back(device_of(entry));
     result.covariance.push_back(entry.value("covariance", std::vector<double>{}));
   }

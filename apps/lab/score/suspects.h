@@ -2,6 +2,7 @@
 #pragma once
 
 #include "apps/lab/score/probe.h"
+#include "calib/correspondences.h"
 
 #include <string>
 #include <vector>
@@ -20,18 +21,27 @@ struct Suspect {
 };
 
 /// What a result's geometry tells. `noise_px`: the rms that noise alone predicts over the volume, 0 where
-/// that is not known. A suspect is named where the error is more than five times the noise (and 1e-3 px), and
-/// undoing it leaves no more than three times the noise, or explains
+/// that is not known. `decoded`: what pictures of the scene say, if anything, for unconverged.h. A suspect is
+/// named where the error is more than five times the noise (and 1e-3 px), and undoing it leaves no more than
+/// three times the noise, or explains
 ///
-///   0.8   nothing fitted, the mistake far larger than a pixel
-///   0.9   half_pixel, which chance comes near to
-///   0.99  overscan, a skew and unconverged, which are fitted
-///   0.999 a keystone's homography, whose eight numbers fit much
+///   0.95  nothing fitted, the mistake far larger than a pixel
+///   0.97  half_pixel, which chance comes near to
+///   0.99  overscan and unconverged, which are fitted
+///   0.999 keystone, whose numbers fit much
 ///
 /// Sorted by what is left plus 0.1 % of the error for each fitted parameter (unconverged counts all). A
 /// suspect with fitted parameters is left out where one before it, with fewer, explains as much to within 1 %
 /// or leaves no more than three times the noise.
-std::vector<Suspect> geometric_suspects(const ScoreRig& result, const Probe& probe, double noise_px);
+///
+/// Where none leaves so little, two at once are tried (pairs.h): both are named in front, with what they
+/// explain together, where they leave a tenth of what the best one leaves and explain 0.999.
+///
+/// unconverged needs a sign that a solver was stopped (unconverged.h); without one it is named only where
+/// nobody else is, and the error is above thirty times the noise (ten where it does not look like noise): it
+/// then says no more than that a solver that starts from this result ends at the truth.
+std::vector<Suspect> geometric_suspects(const ScoreRig& result, const Probe& probe, double noise_px,
+                                        const Correspondences& decoded = {});
 
 /// What to change, a clause for people.
 std::string advice(const std::string& suspect);

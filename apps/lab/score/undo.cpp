@@ -23,6 +23,25 @@ std::function<ScoreRig(const ScoreRig&)> of_all(const Edit& edit) {
   };
 }
 
+// Edits projector_from_camera; the camera stays where it is.
+std::function<ScoreRig(const ScoreRig&)> of_pair(const std::function<Rigid(const Rigid&)>& edit) {
+  return [edit](ScoreRig rig) {
+    if (!rig.camera) return rig;
+    Rigid& projector_from_world = rig.projector.device_from_world;
+    const Rigid camera_from_world = rig.camera->device_from_world;
+    const Rigid projector_from_camera = compose(projector_from_world, inverse(camera_from_world));
+    projector_from_world = compose(edit(projector_from_camera), camera_from_world);
+    return rig;
+  };
+}
+
+Rigid transposed(const Rigid& m) { return {glm::transpose(m.rotation), m.translation}; }
+
+Rigid transposed_in_place(const Rigid& device_from_world) {
+  const glm::dmat3 rotation = glm::transpose(device_from_world.rotation);
+  return {rotation, -(rotation * center_in_world(device_from_world))};
+}
+
 void exchange_size(Intrinsics& k) { std::swap(k.size.x, k.size.y); }
 void exchange_centre(Intrinsics& k) { std::swap(k.cx, k.cy); }
 void exchange_focal(Intrinsics& k) { std::swap(k.fx, k.fy); }
@@ -40,7 +59,7 @@ void turn_world(Device& d, const glm::dmat3& old_from_new) {
 
 glm::dmat3 signs(double x, double y, double z) { return {x, 0.0, 0.0, 0.0, y, 0.0, 0.0, 0.0, z}; }
 
-void add_sizes(glm::ivec2 size, std::vector<Undo>& undos) {
+void add_sizes(std::vector<Undo>& undos) {
   const auto add = [&](const Edit& edit) { undos.push_back({"size_swapped", of_projector(edit)}); };
   add([](Device& d) { exchange_size(d.intrinsics); });
   add([](Device& d) { exchange_size(d.intrinsics), exchange_centre(d.intrinsics); });
@@ -49,12 +68,12 @@ void add_sizes(glm::ivec2 size, std::vector<Undo>& undos) {
   });
   add([](Device& d) { exchange_centre(d.intrinsics); });
   add([](Device& d) { exchange_centre(d.intrinsics), exchange_focal(d.intrinsics); });
-  const double half = (size.x - size.y) / 2.0;
-  add([half](Device& d) { d.intrinsics.cx += half, d.intrinsics.cy -= half; });
-  add([half](Device& d) {
-    exchange_size(d.intrinsics);
+  const Edit to_middle = [](Device& d) {
+    const double half = (d.intrinsics.size.x - d.intrinsics.size.y) / 2.0;
     d.intrinsics.cx += half, d.intrinsics.cy -= half;
-  });
+  };
+  add(to_middle);
+  add([to_middle](Device& d) { exchange_size(d.intrinsics), to_middle(d); });
 }
 
 void add_half_pixels(std::vector<Undo>& undos) {
@@ -69,12 +88,14 @@ void add_half_pixels(std::vector<Undo>& undos) {
 
 void add_flips(glm::ivec2 size, std::vector<Undo>& undos) {
   const auto add = [&](const Edit& edit) { undos.push_back({"y_flipped", of_all(edit)}); };
-  undos.push_back({"y_flipped", of_projector([](Device&) {}),
-                   [h = size.y](const glm::dvec2& pixel) { return glm::dvec2(pixel.x, h - 1 - pixel.y); }});
-  for (const double rows : {size.y - 1.0, double(size.y)})
-    undos.push_back(
-        {"y_flipped", of_projector([rows](Device& d) { d.intrinsics.cy = rows - d.intrinsics.cy; })});
-  const glm::dmat3 opengl = signs(1, -1, -1), mirror = signs(1, -1, 1);
+  const glm::dmat3 opengl = signs(1, -1, -1), mirror = signs(1, -1, 1), behind = signs(-1, -1, -1);
+  const auto flipped = [h = size.y](const glm::dvec2& pixel) { return glm::dvec2(pixel.x, h - 1 - pixel.y); };
+  undos.push_back({"y_flipped", of_projector([](Device&) {}), flipped});
+  undos.push_back({"y_flipped", of_projector([=](Device& d) { turn(d, behind); }), flipped});
+  for (const int edge : {1, 0})
+    undos.push_back({"y_flipped", of_projector([edge](Device& d) {
+                       d.intrinsics.cy = d.intrinsics.size.y - edge - d.intrinsics.cy;
+                     })});
   undos.push_back({"y_flipped", of_projector([=](Device& d) { turn(d, opengl); })});
   undos.push_back({"y_flipped", of_projector([=](Device& d) { turn(d, mirror); })});
   add([=](Device& d) { turn(d, opengl); });
@@ -85,20 +106,17 @@ void add_flips(glm::ivec2 size, std::vector<Undo>& undos) {
 }
 
 void add_poses(std::vector<Undo>& undos) {
-  const auto add = [&](const char* name, const Edit& edit) {
-    undos.push_back({name, of_projector(edit)});
-    undos.push_back({name, of_all(edit)});
+  const auto add = [&](const char* name, const std::function<Rigid(const Rigid&)>& edit) {
+    const Edit of_device = [edit](Device& d) { d.device_from_world = edit(d.device_from_world); };
+    undos.push_back({name, of_projector(of_device)});
+    undos.push_back({name, of_all(of_device)});
+    undos.push_back({name, of_pair(edit)});
   };
-  add("inverse_pose", [](Device& d) { d.device_from_world = inverse(d.device_from_world); });
-  add("rotation_transposed",
-      [](Device& d) { d.device_from_world.rotation = glm::transpose(d.device_from_world.rotation); });
-  add("rotation_transposed", [](Device& d) {
-    const glm::dvec3 centre_world = center_in_world(d.device_from_world);
-    const glm::dmat3 rotation = glm::transpose(d.device_from_world.rotation);
-    d.device_from_world = {rotation, -(rotation * centre_world)};
-  });
+  add("inverse_pose", [](const Rigid& m) { return inverse(m); });
+  add("rotation_transposed", transposed);
+  add("rotation_transposed", transposed_in_place);
   for (const double unit : {1e-3, 1e3, 1e-2, 1e2, 0.0254, 1 / 0.0254, 0.3048, 1 / 0.3048})
-    add("unit_scale", [unit](Device& d) { d.device_from_world.translation *= unit; });
+    add("unit_scale", [unit](const Rigid& m) { return Rigid{m.rotation, m.translation * unit}; });
 }
 
 void add_exchanges(glm::ivec2 size, std::vector<Undo>& undos) {
@@ -125,7 +143,7 @@ void add_exchanges(glm::ivec2 size, std::vector<Undo>& undos) {
 
 std::vector<Undo> undoings(glm::ivec2 size) {
   std::vector<Undo> undos;
-  add_sizes(size, undos);
+  add_sizes(undos);
   add_half_pixels(undos);
   add_flips(size, undos);
   add_poses(undos);

@@ -172,12 +172,12 @@ TEST_P(OnTwoRigs, Unconverged) {
 }
 
 // Every number off by chance: 0.2 to 2 % of the focal lengths, as much of the picture for the centre, of a
-// radian and of a metre for the placement.
-TEST_P(OnTwoRigs, AGenerallyWrongCalibrationNamesNobody) {
+// radian and of a metre for the placement. As a start of a solver it is as good as any, and no more is said.
+TEST_P(OnTwoRigs, AGenerallyWrongCalibrationIsAtMostAStart) {
   auto generator = testing::generator();
   std::normal_distribution<double> normal;
-  int named = 0;
-  constexpr int tries = 60;
+  constexpr int tries = 20;
+  int others = 0;
   for (int i = 0; i < tries; ++i) {
     const double size = 0.002 * std::pow(10.0, i / double(tries));
     const auto by = [&] { return size * normal(generator); };
@@ -187,11 +187,39 @@ TEST_P(OnTwoRigs, AGenerallyWrongCalibrationNamesNobody) {
     const Rigid moved =
         rigid_from_rotation_vector(glm::dvec3(by(), by(), by()), glm::dvec3(by(), by(), by()));
     result.projector.device_from_world = compose(moved, result.projector.device_from_world);
-    const auto suspects = rig().suspects(result);
-    named += !suspects.empty();
-    if (!suspects.empty()) GTEST_LOG_(INFO) << suspects[0].name << " " << suspects[0].explains;
+    for (const Suspect& s : rig().suspects(result)) others += s.name != "unconverged";
   }
-  EXPECT_LE(named, 3);  // one in twenty by chance
+  EXPECT_LE(others, 1);  // one in twenty by chance
+}
+
+// Where decoded points hold the same error, a solver ends at it: it is not to blame.
+TEST_P(OnTwoRigs, WhatTheDecodedPointsSayIsNotUnconverged) {
+  ScoreRig result = rig().truth;
+  result.projector.intrinsics.fx *= 1.01, result.projector.intrinsics.cy += 3;
+  Correspondences decoded;
+  decoded.world_points = rig().surface;
+  const WorldProjection as_decoded(result.projector), truly(rig().truth.projector);
+  for (const auto& x : rig().surface) decoded.projector_pixels.emplace_back(as_decoded.project(x));
+  decoded.sigma_px.assign(rig().surface.size(), 0.1);
+  const Probe probe = make_probe(rig().truth, {}, rig().surface);
+  EXPECT_THAT(geometric_suspects(result, probe, rig().bound_px, decoded), ::testing::IsEmpty());
+  decoded.projector_pixels.clear();
+  for (const auto& x : rig().surface) decoded.projector_pixels.emplace_back(truly.project(x));
+  const auto suspects = geometric_suspects(result, probe, rig().bound_px, decoded);
+  ASSERT_EQ(suspects.size(), 1u);
+  EXPECT_EQ(suspects[0].name, "unconverged");
+}
+
+TEST_P(OnTwoRigs, TwoMistakesStandInFrontTogether) {
+  ScoreRig result{rig().truth.camera, rig().recovered};
+  Intrinsics& k = result.projector.intrinsics;
+  k.cx += 0.5, k.cy += 0.5;
+  for (Device* d : {&result.projector, &*result.camera}) d->device_from_world.translation *= 1000.0;
+  const auto suspects = rig().suspects(result);
+  ASSERT_GE(suspects.size(), 2u);
+  EXPECT_EQ(suspects[0].name, "unit_scale");  // which explains more alone
+  EXPECT_EQ(suspects[1].name, "half_pixel");
+  EXPECT_EQ(suspects[0].explains, suspects[1].explains);
 }
 
 std::vector<ProjectorScore> scored(const Scene& truth, const Device& projector) {
