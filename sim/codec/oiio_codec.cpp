@@ -62,19 +62,24 @@ void add_camera(OIIO::ImageSpec& spec, const PictureCamera& camera) {
 }
 
 OIIO::ImageSpec spec_of(const PictureView& picture, const fs::path& extension) {
-  const bool is_exr = extension == ".exr";
-  const char* compression = is_exr ? "zip" : extension == ".png" ? "rle" : "none";
+  const bool is_exr = extension == ".exr", is_png = extension == ".png";
+  const char* compression = is_exr ? "zip" : is_png ? "rle" : "none";
   OIIO::ImageSpec spec(picture.width, picture.height, picture.channels, file_type_of(picture.type, is_exr));
   if (!picture.channel_names.empty()) spec.channelnames = picture.channel_names;
   spec.alpha_channel = spec.z_channel = -1;
   if (is_exr) add_camera(spec, picture.camera);
   if (is_exr && picture.window.x > 0) spec.full_width = picture.window.x, spec.full_height = picture.window.y;
   spec.attribute("compression", compression);
-  spec.attribute("png:compressionLevel", 1);
-  spec.attribute("png:filter",
-                 32);  // the row above, subtracted: faster than choosing, and smaller on patterns
+  // A format's own word only to that format: the OpenEXR writer keeps others' in its header, unless something
+  // in this process has made OpenImageIO list its formats before.
+  if (is_png) {
+    spec.attribute("png:compressionLevel", 1);
+    constexpr int row_above = 32;  // subtracted: faster than choosing, and smaller on patterns
+    spec.attribute("png:filter", row_above);
+  }
+  if (extension == ".tif" || extension == ".tiff")
+    spec.attribute("tiff:write_exif", 0);  // there is none, and OpenImageIO 2.4 takes that for an error
   spec.attribute("DateTime", "1970:01:01 00:00:00");  // not the clock's: the same picture is the same bytes
-  spec.attribute("tiff:write_exif", 0);  // there is none, and OpenImageIO 2.4 takes that for an error
   return spec;
 }
 
@@ -154,7 +159,8 @@ std::int64_t validate(const fs::path& path, const OIIO::ImageInput& input) {
   return pixels * spec.nchannels;
 }
 
-std::unique_ptr<OIIO::ImageInput> open(const fs::path& path) {
+/// The reader of a format, opened; where none is named, that of the path's ending.
+std::unique_ptr<OIIO::ImageInput> open(const fs::path& path, const std::string& format = {}) {
   start_oiio();
   std::error_code ignored;
   const fs::file_status status = fs::status(path, ignored);
@@ -163,8 +169,10 @@ std::unique_ptr<OIIO::ImageInput> open(const fs::path& path) {
   check_exr_headers(path);
   OIIO::ImageSpec config;
   config.attribute("oiio:UnassociatedAlpha", 1);  // colours as they are in the file
-  auto input = OIIO::ImageInput::open(path.string(), &config);
-  if (!input) refuse(path, "cannot be read as a picture: " + first_line(OIIO::geterror()));
+  auto input = OIIO::ImageInput::create(format.empty() ? path.string() : format, false);
+  OIIO::ImageSpec ignored_spec;
+  if (!input || !input->open(path.string(), ignored_spec, config))
+    refuse(path, "cannot be read as a picture: " + first_line(input ? input->geterror() : OIIO::geterror()));
   return input;
 }
 
@@ -192,8 +200,8 @@ PictureCamera camera_in(const OIIO::ImageSpec& spec) {
           matrix_in(spec, window_name)};
 }
 
-Picture read(const fs::path& path, int page) {
-  const auto input = open(path);
+Picture read_page(const fs::path& path, int page, const std::string& format) {
+  const auto input = open(path, format);
   if (!input->seek_subimage(page, 0))
     refuse(path, fmt::format("page {} cannot be read: {}", page + 1, first_line(input->geterror())));
   validate(path, *input);
@@ -210,9 +218,11 @@ Picture read(const fs::path& path, int page) {
   return picture;
 }
 
+Picture read(const fs::path& path, int page) { return read_page(path, page, {}); }
+
 /// Pages may share their bytes in a forged file: all together hold no more values than one could.
-int page_count(const fs::path& path) {
-  const auto input = open(path);
+int count_pages_of(const fs::path& path, const std::string& format) {
+  const auto input = open(path, format);
   const auto bytes = static_cast<std::int64_t>(fs::file_size(path));
   std::int64_t values = 0;
   int pages = 0;
@@ -227,6 +237,8 @@ int page_count(const fs::path& path) {
   return pages;
 }
 
+int page_count(const fs::path& path) { return count_pages_of(path, {}); }
+
 bool same_values(const Picture& picture, const PictureView& page) {
   return std::visit(
       [&](const auto& values) {
@@ -238,13 +250,13 @@ bool same_values(const Picture& picture, const PictureView& page) {
       picture.values);
 }
 
-/// Reads back what was written; nothing where it is all there.
+/// Reads back what was written under a name for the time being; nothing where it is all there.
 std::string fault_in(const fs::path& path, const std::vector<PictureView>& pages) {
   try {
-    if (const int found = page_count(path); found != int(pages.size()))
+    if (const int found = count_pages_of(path, "tiff"); found != int(pages.size()))
       return fmt::format("{} of {} pages arrived; is the disk full?", found, pages.size());
     for (int k = 0; k < int(pages.size()); ++k)
-      if (!same_values(read(path, k), pages[k]))
+      if (!same_values(read_page(path, k, "tiff"), pages[k]))
         return fmt::format("page {} did not arrive whole; is the disk full?", k + 1);
     return {};
   } catch (const InputError&) {
