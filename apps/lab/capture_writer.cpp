@@ -87,7 +87,7 @@ CaptureSequence write_view(const Scene& scene, const SceneRays& rig, int camera,
                            const CaptureOptions& options, StageTimes& times, const Progress& progress) {
   const auto [saturation, rows] = rows_of(camera, projector);
   CapturedStack stack = capture_rows(scene, camera, projector, rows, saturation, options.seed, times);
-  const CaptureSequence sequence = describe(scene, camera, projector, saturation, options, count_of(stack));
+  CaptureSequence sequence = describe(scene, camera, projector, saturation, options, count_of(stack));
   if (progress) {
     progress(
         fmt::format("writing {} pictures of \"{}\" by \"{}\", exposed so that {:.4g} cd/m² fill the scale",
@@ -166,7 +166,7 @@ std::vector<std::string> write_capture(const SceneSpec& spec, const Scene& scene
   check_format(options.format, scene);
   PendingFolder pending(target);
   const SceneRays rig = make_rig(scene, times);
-  const std::vector<std::string> warnings = capture_warnings(scene, rig);
+  std::vector<std::string> warnings = capture_warnings(scene, rig);
   for (const std::string& warning : warnings)
     if (progress) progress(warning);
   fill_capture(spec, scene, rig, folder, pending.path(), options, times, progress);
@@ -188,7 +188,7 @@ std::vector<std::string> write_board_captures(const SceneSpec& spec, const std::
     if (progress) progress(name);
     const std::vector<std::string> said = write_capture(scenes[k], build_scene(scenes[k], folder), folder,
                                                         pending.path() / name, one, times, progress);
-    for (const std::string& warning : said) warnings.push_back(name + ": " + warning);
+    for (const std::string& warning : said) warnings.push_back(fmt::format("{}: {}", name, warning));
   }
   pending.commit();
   return warnings;

@@ -105,7 +105,7 @@ ImageRows in_colour(ImageRows rows, const Scene& scene, int camera, int projecto
 // Rows by which a view is exposed: those of pixel centres, or, where surfaces light each other, which costs
 // many rays, those of every sixteenth tile along diagonals.
 ImageRows exposure_rows(const Scene& scene, const SceneRays& rig, int camera, int projector) {
-  const ImageRows all = in_colour(rig_rows(scene, rig, camera, projector, {}), scene, camera, projector);
+  ImageRows all = in_colour(rig_rows(scene, rig, camera, projector, {}), scene, camera, projector);
   if (!scene.effects.inter_reflection) return all;
   const RowSource some = [rows = all.rows](LightRows& out) {
     const PixelRegion& r = out.region;

@@ -88,16 +88,17 @@ void add_half_pixels(std::vector<Undo>& undos) {
 
 void add_flips(glm::ivec2 size, std::vector<Undo>& undos) {
   const auto add = [&](const Edit& edit) { undos.push_back({"y_flipped", of_all(edit)}); };
-  const glm::dmat3 opengl = signs(1, -1, -1), mirror = signs(1, -1, 1), behind = signs(-1, -1, -1);
+  const auto add_projector = [&](const Edit& edit) { undos.push_back({"y_flipped", of_projector(edit)}); };
   const auto flipped = [h = size.y](const glm::dvec2& pixel) { return glm::dvec2(pixel.x, h - 1 - pixel.y); };
-  undos.push_back({"y_flipped", of_projector([](Device&) {}), flipped});
-  undos.push_back({"y_flipped", of_projector([=](Device& d) { turn(d, behind); }), flipped});
+  const glm::dmat3 opengl = signs(1, -1, -1), mirror = signs(1, -1, 1), behind = signs(-1, -1, -1);
+  for (const glm::dmat3& before : {glm::dmat3(1), behind}) {
+    add_projector([=](Device& d) { turn(d, before); });
+    undos.back().pixel = flipped;
+  }
   for (const int edge : {1, 0})
-    undos.push_back({"y_flipped", of_projector([edge](Device& d) {
-                       d.intrinsics.cy = d.intrinsics.size.y - edge - d.intrinsics.cy;
-                     })});
-  undos.push_back({"y_flipped", of_projector([=](Device& d) { turn(d, opengl); })});
-  undos.push_back({"y_flipped", of_projector([=](Device& d) { turn(d, mirror); })});
+    add_projector([edge](Device& d) { d.intrinsics.cy = d.intrinsics.size.y - edge - d.intrinsics.cy; });
+  add_projector([=](Device& d) { turn(d, opengl); });
+  add_projector([=](Device& d) { turn(d, mirror); });
   add([=](Device& d) { turn(d, opengl); });
   add([=](Device& d) { turn_world(d, opengl); });
   add([=](Device& d) { turn_world(d, mirror); });

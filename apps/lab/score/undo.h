@@ -21,8 +21,7 @@ struct Undo {
 /// All of them for a projector of the given picture size:
 ///
 ///   size_swapped         W and H exchanged in the size; in size, focal lengths and centre; in the last two
-///   or
-///                        in the centre alone; or the centre's offset from the middle of the other size's
+///                        or in the centre alone; or the centre's offset from the middle of the other size's
 ///                        picture
 ///   half_pixel           the centre is moved by half a pixel in u, v or both, either way: pixels counted
 ///                        from their corners
