@@ -118,7 +118,7 @@ std::optional<Matrix3> first_matrix(const StationPair& pair) {
   const auto a = cv_points(pair.pixel_a), b = cv_points(pair.pixel_b);
   for (const int method : {int(cv::USAC_ACCURATE), int(cv::FM_LMEDS), int(cv::FM_8POINT)}) {
     try {
-      const auto f = from_cv(cv::findFundamentalMat(a, b, method, threshold, 0.9999, 5000));
+      auto f = from_cv(cv::findFundamentalMat(a, b, method, threshold, 0.9999, 5000));
       if (f && f->allFinite() && f->norm() > 0) return f;
     } catch (const cv::Exception&) {
     }

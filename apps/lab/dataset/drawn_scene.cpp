@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <functional>
+#include <ranges>
 
 namespace laterna {
 
@@ -51,11 +52,11 @@ DrawnValues draw_values(const DatasetSpec& spec, std::uint64_t seed, std::uint64
 
 SceneSpec scene_of(const DatasetSpec& spec, const DrawnValues& drawn) {
   SceneSpec scene = parse_scene(spec.scene_text, spec.scene_file.string(), overrides_of(drawn));
-  for (auto mesh = drawn.absent.rbegin(); mesh != drawn.absent.rend(); ++mesh) {
-    if (std::size_t(*mesh) >= scene.meshes.size())
+  for (const int mesh : drawn.absent | std::views::reverse) {
+    if (std::size_t(mesh) >= scene.meshes.size())
       throw InputError(
-          fmt::format("present \"mesh.{}\": the scene has {} meshes", *mesh, scene.meshes.size()));
-    scene.meshes.erase(scene.meshes.begin() + *mesh);
+          fmt::format("present \"mesh.{}\": the scene has {} meshes", mesh, scene.meshes.size()));
+    scene.meshes.erase(scene.meshes.begin() + mesh);
   }
   return scene;
 }
