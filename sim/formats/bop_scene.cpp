@@ -78,7 +78,7 @@ BopObject object_of(const Place& entry, const fs::path& folder, const std::strin
 // A picture's file, whichever ending it has; without one where it is not there.
 fs::path picture_at(const fs::path& folder, int id) {
   for (const char* ending : {".png", ".tif", ".jpg"})
-    if (const fs::path file = folder / fmt::format("{:06}{}", id, ending); fs::exists(file)) return file;
+    if (fs::path file = folder / fmt::format("{:06}{}", id, ending); fs::exists(file)) return file;
   return {};
 }
 

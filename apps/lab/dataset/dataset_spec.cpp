@@ -11,6 +11,8 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <map>
+#include <sstream>
 
 namespace laterna {
 
@@ -70,6 +72,22 @@ void check_nested(const Json& value, const std::string& place) {
   for (const Json& inner : value) check_nested(inner, place);
 }
 
+/// A path without the index 0, which a path may leave out.
+std::string without_zeros(const std::string& path) {
+  std::istringstream words(path);
+  std::string result;
+  for (std::string word; std::getline(words, word, '.');)
+    if (word != "0") result += "." + word;
+  return result;
+}
+
+void check_different(const std::vector<RandomKey>& keys) {
+  std::map<std::string, std::string> seen;
+  for (const RandomKey& key : keys)
+    if (const auto [first, is_new] = seen.emplace(without_zeros(key.path), key.path); !is_new)
+      throw InputError(fmt::format("{}: is the same key as \"{}\"", key.place, first->second));
+}
+
 std::vector<RandomKey> random_keys(const toml::table& table, const std::string& file) {
   std::vector<std::pair<std::uint32_t, RandomKey>> keys;
   for (const auto& [key, node] : table) {
@@ -86,6 +104,7 @@ std::vector<RandomKey> random_keys(const toml::table& table, const std::string& 
   std::stable_sort(keys.begin(), keys.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<RandomKey> sorted;
   for (auto& [line, key] : keys) sorted.push_back(std::move(key));
+  check_different(sorted);
   return sorted;
 }
 
@@ -99,6 +118,8 @@ std::vector<PresentKey> present_keys(const toml::table& table, const std::string
     const double share = node.value<double>().value_or(-1);
     if (!node.is_number() || !(share >= 0 && share <= 1))
       fail(file, node, fmt::format("present \"{}\" is no share, expected a number from 0 to 1", path));
+    if (std::any_of(keys.begin(), keys.end(), [&](const PresentKey& k) { return k.mesh == mesh; }))
+      fail(file, node, fmt::format("present \"{}\" says again what becomes of mesh {}", path, mesh));
     keys.push_back({mesh, share});
   }
   std::sort(keys.begin(), keys.end(), [](const auto& a, const auto& b) { return a.mesh < b.mesh; });

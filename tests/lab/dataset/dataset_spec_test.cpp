@@ -67,6 +67,20 @@ TEST(DatasetSpec, BadDistributionsAreOneSentence) {
   EXPECT_THAT(random_error("x = { choice = [{ y = { uniform = [2, 1] } }] }"), HasSubstr("uniform is [2,1]"));
 }
 
+TEST(DatasetSpec, OneKeyUnderTwoNames) {
+  const auto error = [](const std::string& text) {
+    return testing::input_error([&] { parse_dataset_spec("scene = \"s.toml\"\n" + text, "d.toml"); });
+  };
+  EXPECT_EQ(error("[random]\n\"camera.fx\" = { uniform = [1, 2] }\n\"camera.0.fx\" = { uniform = [3, 4] }\n"),
+            "d.toml:4: random \"camera.0.fx\": is the same key as \"camera.fx\"");
+  EXPECT_THAT(error("[present]\n\"mesh.1\" = 0.5\n\"mesh.01\" = 0.2\n"),
+              HasSubstr("says again what becomes of mesh 1"));
+  EXPECT_NO_THROW(
+      parse_dataset_spec("scene = \"s.toml\"\n[random]\n\"mesh.0.albedo\" = { uniform = [0.1, 0.2] "
+                         "}\n\"mesh.1.albedo\" = { uniform = [0.1, 0.2] }\n",
+                         "d.toml"));
+}
+
 TEST(DatasetSpec, TheSceneIsAskedAboutTheEndsBeforeAnythingIsMade) {
   const ScratchFolder scratch;
   testing::write_tiny_spec(scratch.path());
