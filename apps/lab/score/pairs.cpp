@@ -37,9 +37,8 @@ std::vector<glm::dvec2> undone(const std::vector<Undo>& undos, const Order& orde
   ScoreRig rig = a.rig(result);
   if (order.second) rig = undos[*order.second].rig(rig);
   std::vector<glm::dvec2> pixels = result_pixels(rig, probe);
-  if (a.pixel) std::transform(pixels.begin(), pixels.end(), pixels.begin(), a.pixel);
-  if (order.second && undos[*order.second].pixel)
-    std::transform(pixels.begin(), pixels.end(), pixels.begin(), undos[*order.second].pixel);
+  undo_pixels(a, pixels);
+  if (order.second) undo_pixels(undos[*order.second], pixels);
   return pixels;
 }
 
@@ -66,7 +65,7 @@ double alone_px2(const std::vector<Undo>& undos, const std::string& name, const 
   for (const Undo& undo : undos) {
     if (undo.suspect != name) continue;
     std::vector<glm::dvec2> pixels = result_pixels(undo.rig(result), probe);
-    if (undo.pixel) std::transform(pixels.begin(), pixels.end(), pixels.begin(), undo.pixel);
+    undo_pixels(undo, pixels);
     least = std::min(least, squared_error_px2(pixels, probe));
   }
   return least;

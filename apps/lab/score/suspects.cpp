@@ -47,7 +47,7 @@ std::vector<Trial> simple_trials(const ScoreRig& result, const Probe& probe) {
   std::vector<Trial> trials;
   for (const Undo& undo : undoings(probe.truth.projector.intrinsics.size)) {
     std::vector<glm::dvec2> pixels = result_pixels(undo.rig(result), probe);
-    if (undo.pixel) std::transform(pixels.begin(), pixels.end(), pixels.begin(), undo.pixel);
+    undo_pixels(undo, pixels);
     trials.push_back({undo.suspect, 0, squared_error_px2(pixels, probe)});
   }
   for (const FittedUndo& undo : fitted_undoings(result, probe))

@@ -1,5 +1,6 @@
 #include "apps/lab/score/undo.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace laterna {
@@ -141,6 +142,10 @@ void add_exchanges(glm::ivec2 size, std::vector<Undo>& undos) {
 }
 
 }  // namespace
+
+void undo_pixels(const Undo& undo, std::vector<glm::dvec2>& pixels) {
+  if (undo.pixel) std::transform(pixels.begin(), pixels.end(), pixels.begin(), undo.pixel);
+}
 
 std::vector<Undo> undoings(glm::ivec2 size) {
   std::vector<Undo> undos;

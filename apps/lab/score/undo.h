@@ -18,6 +18,9 @@ struct Undo {
   std::function<glm::dvec2(const glm::dvec2&)> pixel{};
 };
 
+/// What the undoing does to the pixels of the rig that it gives: nothing where it has no `pixel`.
+void undo_pixels(const Undo& undo, std::vector<glm::dvec2>& pixels);
+
 /// All of them for a projector of the given picture size:
 ///
 ///   size_swapped         W and H exchanged in the size; in size, focal lengths and centre; in the last two
