@@ -72,10 +72,10 @@ struct Picture {
   glm::ivec2 window{0, 0};  ///< size of the whole picture, of which a cropped EXR holds a part
 };
 
-/// Reads any picture that OpenImageIO knows. Every reader of this page throws InputError, naming the path,
-/// where the file is missing, is no picture, is cut short, or where its header claims no pixels, more than
-/// 2³⁰, or more values than a file of its size can hold (checked before anything is allocated).
-/// `page` counts from 0 (the parts of a multi-part EXR are pages too).
+/// Reads a picture with OpenImageIO's reader for the path's ending, and no other. Every reader of this page
+/// throws InputError, naming the path, where the file is missing, is no picture, is cut short, or where its
+/// header claims no pixels, more than 2³⁰, or more values than a file of its size can hold (checked before
+/// anything is allocated). `page` counts from 0 (the parts of a multi-part EXR are pages too).
 Picture read_picture(const std::filesystem::path& path, int page = 0);
 
 /// How many pages a picture file has. Throws as read_picture; the size check holds for all pages together.

@@ -176,14 +176,24 @@ std::unique_ptr<OIIO::ImageInput> open(const fs::path& path, const std::string& 
   return input;
 }
 
+/// In the file's own type, then converted: where it is told a type, even the file's, OpenImageIO takes 64 MiB
+/// to convert in, however small the picture.
 template <class T>
 std::vector<T> read_values(const fs::path& path, OIIO::ImageInput& input, int page) {
   const OIIO::ImageSpec spec = input.spec();
+  const OIIO::TypeDesc wanted = OIIO::BaseTypeFromC<T>::value;
   std::vector<T> values(std::size_t(spec.width) * spec.height * spec.nchannels);
-  const bool read =
-      input.read_image(page, 0, 0, spec.nchannels, OIIO::BaseTypeFromC<T>::value, values.data());
+  std::vector<std::byte> own(spec.format == wanted ? 0 : values.size() * spec.format.size());
+  void* read_to = own.empty() ? static_cast<void*>(values.data()) : own.data();
+  const OIIO::TypeDesc as_it_is = spec.channelformats.empty() ? OIIO::TypeUnknown : spec.format;
+  const bool read = input.read_image(page, 0, 0, spec.nchannels, as_it_is, read_to);
   if (!read || input.has_error())
     refuse(path, "cannot be read as a picture: " + first_line(input.geterror()));
+  if (!own.empty()) {
+    constexpr auto packed = OIIO::AutoStride;
+    OIIO::convert_image(spec.nchannels, spec.width, spec.height, 1, own.data(), spec.format, packed, packed,
+                        packed, values.data(), wanted, packed, packed, packed);
+  }
   return values;
 }
 
