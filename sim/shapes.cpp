@@ -10,6 +10,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <complex>
+#include <functional>
+#include <tuple>
+#include <vector>
 
 namespace laterna {
 
@@ -53,28 +57,46 @@ std::array<double, 4> uniform_numbers(std::uint64_t seed, std::uint32_t counter)
   return numbers;
 }
 
-struct Wave {
-  glm::dvec2 radians_per_metre;
-  double phase_rad = 0, amplitude = 0;
+using Phasors = std::array<std::complex<double>, 32>;  ///< one of each wave
+
+/// Waves Re(amplitude · e^{i k·p}).
+struct Waves {
+  std::array<glm::dvec2, 32> radians_per_metre;
+  Phasors amplitudes;
 };
 
 /// Four octaves and a bit of wavelengths, evenly in their logarithm.
-std::array<Wave, 32> draw_waves(double longer_side, std::uint64_t seed) {
-  std::array<Wave, 32> waves;
-  for (std::size_t i = 0; i < waves.size(); ++i) {
+Waves draw_waves(double longer_side, std::uint64_t seed) {
+  Waves waves;
+  constexpr std::size_t count = std::tuple_size_v<Phasors>;
+  for (std::size_t i = 0; i < count; ++i) {
     const auto [a, b, c, unused] = uniform_numbers(seed, std::uint32_t(i));
-    const double wavelength = longer_side * std::exp2(-4.0 * (double(i) + a) / double(waves.size()));
+    const double wavelength = longer_side * std::exp2(-4.0 * (double(i) + a) / double(count));
     const double direction = 2 * pi * b;
-    waves[i] = {2 * pi / wavelength * glm::dvec2(std::cos(direction), std::sin(direction)), 2 * pi * c,
-                wavelength};
+    waves.radians_per_metre[i] = 2 * pi / wavelength * glm::dvec2(std::cos(direction), std::sin(direction));
+    waves.amplitudes[i] = std::polar(wavelength, 2 * pi * c);
   }
   return waves;
 }
 
-double height_of(const std::array<Wave, 32>& waves, const glm::dvec2& point) {
+/// Each wave's e^{i k·p}. That of (x, y) is that of (x, 0) times that of (0, y): a grid takes cosines for its
+/// columns and its rows alone.
+Phasors phasors_at(const Waves& waves, const glm::dvec2& point) {
+  Phasors phasors;
+  for (std::size_t i = 0; i < phasors.size(); ++i)
+    phasors[i] = std::polar(1.0, glm::dot(waves.radians_per_metre[i], point));
+  return phasors;
+}
+
+Phasors product(const Phasors& a, const Phasors& b) {
+  Phasors products;
+  std::transform(a.begin(), a.end(), b.begin(), products.begin(), std::multiplies<>());
+  return products;
+}
+
+double sum_of_real_products(const Phasors& a, const Phasors& b) {
   double sum = 0;
-  for (const Wave& w : waves)
-    sum += w.amplitude * std::cos(glm::dot(w.radians_per_metre, point) + w.phase_rad);
+  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i].real() * b[i].real() - a[i].imag() * b[i].imag();
   return sum;
 }
 
@@ -159,11 +181,15 @@ Mesh sphere(double radius, int subdivisions) {
 Mesh relief(double width, double height, double depth, int columns, int rows, std::uint64_t seed) {
   expect_length("relief", "the depth", depth);
   Mesh mesh = plane(width, height, columns, rows);
-  const auto waves = draw_waves(std::max(width, height), seed);
+  const Waves waves = draw_waves(std::max(width, height), seed);
   const std::size_t row_size = std::size_t(columns) + 1;
+  std::vector<Phasors> of_columns;
+  for (std::size_t i = 0; i < row_size; ++i)
+    of_columns.push_back(phasors_at(waves, {mesh.positions[i].x, 0}));
   parallel_for(std::size_t(rows) + 1, [&](std::size_t row) {
-    for (std::size_t i = row * row_size; i < (row + 1) * row_size; ++i)
-      mesh.positions[i].z = height_of(waves, glm::dvec2(mesh.positions[i]));
+    glm::dvec3* vertices = &mesh.positions[row * row_size];
+    const Phasors of_row = product(waves.amplitudes, phasors_at(waves, {0, vertices->y}));
+    for (std::size_t i = 0; i < row_size; ++i) vertices[i].z = sum_of_real_products(of_columns[i], of_row);
   });
   scale_to_depth(mesh.positions, depth);
   return mesh;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <boost/locale/utf.hpp>
 #include <cerrno>
+#include <cstdint>
 #include <fstream>
 #include <system_error>
 
@@ -23,6 +24,8 @@ std::string read_text(const std::filesystem::path& path, std::size_t most_bytes)
                                  std::error_code(errno, std::generic_category()).message()));
   }
   std::string text;
+  const std::uintmax_t expected_bytes = std::filesystem::file_size(path, ignored);  // fails for a pipe
+  if (!ignored && expected_bytes <= most_bytes) text.reserve(expected_bytes);
   char part[65536];
   while (text.size() <= most_bytes && (file.read(part, sizeof part) || file.gcount() > 0))
     text.append(part, std::size_t(file.gcount()));

@@ -2,6 +2,7 @@
 
 #include "apps/bench/timing.h"
 #include "apps/lab/dataset/dataset.h"
+#include "apps/lab/keep_memory.h"
 #include "sim/capture_folder.h"
 #include "sim/image_file.h"
 #include "sim/parallel.h"
@@ -111,6 +112,7 @@ double write_again(const fs::path& set, const fs::path& target, int samples) {
 }  // namespace
 
 DatasetTimes time_dataset(int samples, int threads) {
+  keep_freed_memory();  // as the command does; for the yardstick too
   const Folder folder;
   const auto make = [&](const char* name, int of_threads) {
     set_thread_count(of_threads);

@@ -1,4 +1,5 @@
 #include "apps/lab/dataset/dataset.h"
+#include "apps/lab/keep_memory.h"
 #include "apps/laterna/command.h"
 #include "sim/error.h"
 
@@ -60,6 +61,7 @@ void print_text(const DatasetOutcome& outcome, const Words& words) {
 int run(Words& words, const Common& common) {
   words.options.seed = common.seed;
   parse_shard(words.shard, words.options);
+  keep_freed_memory();
   const DatasetOutcome outcome = make_dataset(words.spec, words.out, words.options,
                                               [&](const std::string& line) { progress(common, line); });
   if (outcome.interrupted) {
