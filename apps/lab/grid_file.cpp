@@ -1,10 +1,9 @@
 #include "apps/lab/grid_file.h"
 
+#include "apps/lab/toml_text.h"
 #include "sim/error.h"
-#include "sim/toml_guard.h"
 
 #include <fmt/format.h>
-#include <toml++/toml.h>
 
 #include <algorithm>
 #include <set>
@@ -71,21 +70,11 @@ Grid grid_of(const toml::table& table, const std::string& file, const std::vecto
   return grid;
 }
 
-toml::table parse(std::string_view text, const std::string& file) {
-  check_toml_bytes(text, file);
-  try {
-    return toml::parse(text, file);
-  } catch (const toml::parse_error& error) {
-    throw InputError(
-        fmt::format("{}:{}: {}", file, error.source().begin.line, std::string(error.description())));
-  }
-}
-
 }  // namespace
 
 std::vector<Grid> parse_grids(std::string_view text, const std::string& file,
                               const std::vector<std::string>& settings) {
-  const toml::table table = parse(text, file);
+  const toml::table table = parse_toml(text, file);
   for (const auto& [key, node] : table)
     if (key.str() != "grid" || !node.is_array_of_tables())
       fail(file, node, fmt::format("found \"{}\", expected [[grid]] alone", std::string(key.str())));

@@ -1,5 +1,7 @@
 #include "apps/lab/summary_picture.h"
 
+#include "apps/lab/percentile.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,16 +12,6 @@ namespace laterna {
 namespace {
 
 constexpr Rgb background{24, 26, 30}, ink{235, 235, 235}, quiet{170, 174, 182}, empty{52, 55, 62};
-
-double percentile_99(const Image<float>& image) {
-  std::vector<float> values;
-  std::copy_if(image.values.begin(), image.values.end(), std::back_inserter(values),
-               [](float v) { return std::isfinite(v); });
-  if (values.empty()) return 0;
-  const auto rank = values.begin() + std::ptrdiff_t(0.99 * double(values.size() - 1));
-  std::nth_element(values.begin(), rank, values.end());
-  return *rank;
-}
 
 struct Panel {
   glm::ivec2 corner, size;

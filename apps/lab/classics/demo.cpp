@@ -51,6 +51,17 @@ Image<double> ClassicDemo::core() const {
   return shares;
 }
 
+double ClassicDemo::core_distance_px(const PixelArray<glm::dvec4>& strq) const {
+  const LightMap& light = view.lights[0];
+  double most = 0;
+  for (std::size_t p = 0; p < strq.values.size(); ++p)
+    if (light.lit(p))
+      most =
+          std::max(most, glm::distance(pixel_from_texture(strq.values[p], projector().device.intrinsics.size),
+                                       {light.u_px.values[p], light.v_px.values[p]}));
+  return most;
+}
+
 Canvas shown(const Image<double>& image, double white) {
   Image<float> light(image.width, image.height);
   std::copy(image.values.begin(), image.values.end(), light.values.begin());

@@ -40,6 +40,9 @@ struct ClassicDemo {
   PixelArray<glm::dvec4> coordinates(CoordinateSource source) const {
     return texture_coordinates(view.surface, scene, scene.cameras[0], projector(), source);
   }
+
+  /// How far s/q and t/q are from the core's (u, v), in projector pixels, at most, over lit pixels.
+  double core_distance_px(const PixelArray<glm::dvec4>& strq) const;
 };
 
 /// For the eye: `white` and above is white.

@@ -37,20 +37,16 @@ glm::dmat4 texture_from_view(const Device& light, const Device& camera) {
       .top();
 }
 
-double stack_distance_px(const ClassicDemo& demo) {
+/// (s, t, r, q) by the stack, of what each pixel sees.
+PixelArray<glm::dvec4> stack_coordinates(const ClassicDemo& demo) {
   const Device& camera = demo.scene.cameras[0].device;
   const glm::dmat4 texture = texture_from_view(demo.projector().device, camera);
   const glm::dmat4 view = projector_from_world(camera.device_from_world);
   const auto points = points_world(demo.view.surface, demo.scene);
-  const LightMap& light = demo.view.lights[0];
-  double most = 0;
-  for (std::size_t p = 0; p < points.values.size(); ++p) {
-    if (!light.lit(p)) continue;
-    const glm::dvec4 strq = texture * (view * glm::dvec4(points.values[p], 1.0));
-    most = std::max(most, glm::distance(pixel_from_texture(strq, demo.projector().device.intrinsics.size),
-                                        {light.u_px.values[p], light.v_px.values[p]}));
-  }
-  return most;
+  PixelArray<glm::dvec4> strq(points.width, points.height);
+  for (std::size_t p = 0; p < points.values.size(); ++p)
+    strq.values[p] = texture * (view * glm::dvec4(points.values[p], 1.0));
+  return strq;
 }
 
 /// Pixels behind the projector that are brighter than in `dark`, as a share of all.
@@ -204,8 +200,8 @@ ClassicResult projected_light(const std::filesystem::path& scenes) {
   const ClassicDemo demo(file);
   ClassicResult result;
   result.pictures.push_back({"projected_light", shown(demo.core())});
-  result.figures.push_back(
-      {"matrix by the stack to the core's (u, v), greatest", stack_distance_px(demo), "px", 1e-9});
+  result.figures.push_back({"matrix by the stack to the core's (u, v), greatest",
+                            demo.core_distance_px(stack_coordinates(demo)), "px", 1e-9});
   show_q_test(demo, result);
   show_border(demo, file, result);
   show_fov(file, result);

@@ -37,18 +37,6 @@ PixelArray<glm::dvec4> divided_at_vertices(const ClassicDemo& demo) {
   return out;
 }
 
-/// How far from the core's (u, v) coordinates are, at most, over lit pixels.
-double distance_px(const ClassicDemo& demo, const PixelArray<glm::dvec4>& strq) {
-  const LightMap& light = demo.view.lights[0];
-  double most = 0;
-  for (std::size_t p = 0; p < strq.values.size(); ++p)
-    if (light.lit(p))
-      most = std::max(
-          most, glm::distance(pixel_from_texture(strq.values[p], demo.projector().device.intrinsics.size),
-                              {light.u_px.values[p], light.v_px.values[p]}));
-  return most;
-}
-
 void show_divide(const ClassicDemo& demo, ClassicResult& result) {
   const auto per_vertex = divided_at_vertices(demo);
   Image<double> wrong(per_vertex.width, per_vertex.height, demo.scene.ambient_lx / demo.full_lx);
@@ -66,8 +54,8 @@ void show_divide(const ClassicDemo& demo, ClassicResult& result) {
   result.figures.insert(
       result.figures.end(),
       {{"divide per fragment to the core's (u, v), greatest",
-        distance_px(demo, demo.coordinates(CoordinateSource::given)), "px", 1e-9},
-       {"divide per vertex to the core's (u, v), greatest", distance_px(demo, per_vertex), "px", 0.01}});
+        demo.core_distance_px(demo.coordinates(CoordinateSource::given)), "px", 1e-9},
+       {"divide per vertex to the core's (u, v), greatest", demo.core_distance_px(per_vertex), "px", 0.01}});
 }
 
 // A near plane that crosses what the camera sees: between projector and plane q > 0, but r < 0.

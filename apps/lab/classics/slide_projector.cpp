@@ -30,18 +30,6 @@ double greatest(const Image<float>& image) {
   return most;
 }
 
-double core_distance_px(const Demo& demo) {
-  const auto strq = demo.coordinates(CoordinateSource::object_linear);
-  const LightMap& light = demo.view.lights[0];
-  double most = 0;
-  for (std::size_t p = 0; p < strq.values.size(); ++p)
-    if (light.lit(p))
-      most = std::max(
-          most, glm::distance(pixel_from_texture(strq.values[p], demo.projector().device.intrinsics.size),
-                              {light.u_px.values[p], light.v_px.values[p]}));
-  return most;
-}
-
 void show_coordinates(const Demo& demo, ClassicResult& result) {
   using enum CoordinateSource;
   const auto picture = [&](CoordinateSource source) { return demo.passes({.coordinates = source}).back(); };
@@ -63,7 +51,8 @@ void show_coordinates(const Demo& demo, ClassicResult& result) {
         rounding_px},
        {"object-linear to given, greatest", greatest(distance_px(demo, object_linear, given)), "px",
         rounding_px},
-       {"object-linear to the core's (u, v), greatest", core_distance_px(demo), "px", rounding_px},
+       {"object-linear to the core's (u, v), greatest",
+        demo.core_distance_px(demo.coordinates(object_linear)), "px", rounding_px},
        {"object-linear and eye-linear: pixels that differ", share_that_differs(object, eye), "", 1e-4},
        {"object-linear and given: pixels that differ", share_that_differs(object, caller), "", 1e-4}});
 }

@@ -1,13 +1,12 @@
 #include "apps/lab/dataset/dataset_spec.h"
 
 #include "apps/lab/noun_json.h"
+#include "apps/lab/toml_text.h"
 #include "sim/error.h"
 #include "sim/plain_name.h"
 #include "sim/text_file.h"
-#include "sim/toml_guard.h"
 
 #include <fmt/format.h>
-#include <toml++/toml.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -43,16 +42,6 @@ Json json_of(const toml::node& node, const std::string& file) {
     fail(file, node, "found a date or a number that is not finite, expected a value of a scene");
   }
   return json;
-}
-
-toml::table parse(std::string_view text, const std::string& file) {
-  check_toml_bytes(text, file);
-  try {
-    return toml::parse(text, file);
-  } catch (const toml::parse_error& error) {
-    throw InputError(
-        fmt::format("{}:{}: {}", file, error.source().begin.line, std::string(error.description())));
-  }
 }
 
 /// A table of the top level, taken out of it; empty where there is none.
@@ -129,7 +118,7 @@ std::vector<PresentKey> present_keys(const toml::table& table, const std::string
 }  // namespace
 
 DatasetSpec parse_dataset_spec(std::string_view text, const std::string& file) {
-  toml::table top = parse(text, file);
+  toml::table top = parse_toml(text, file);
   DatasetSpec spec;
   spec.text = text;
   spec.random = random_keys(take_table(top, "random", file), file);

@@ -1,6 +1,7 @@
 #include "apps/lab/report/capture_figures.h"
 
 #include "apps/lab/decode_folder.h"
+#include "apps/lab/percentile.h"
 #include "apps/lab/report/thumbnails.h"
 #include "apps/lab/report/trial_figures.h"
 #include "apps/lab/trial_report.h"
@@ -22,16 +23,6 @@ using Json = nlohmann::json;
 namespace fs = std::filesystem;
 
 namespace {
-
-double percentile_99(const Image<float>& image) {
-  std::vector<float> values;
-  std::copy_if(image.values.begin(), image.values.end(), std::back_inserter(values),
-               [](float v) { return std::isfinite(v); });
-  if (values.empty()) return 0;
-  const auto rank = values.begin() + std::ptrdiff_t(0.99 * double(values.size() - 1));
-  std::nth_element(values.begin(), rank, values.end());
-  return *rank;
-}
 
 Json map_figure(const char* label, const Image<double>& map, double high, const char* unit) {
   return {{"label", label},
