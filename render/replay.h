@@ -1,4 +1,4 @@
-// Plays a whole pattern stack through rows of light, and adds the rows' transpose.
+// Plays a whole pattern stack through rows of light.
 #pragma once
 
 #include "render/exposure.h"
@@ -26,12 +26,6 @@ void play_stack(const ImageRows& image, Lookup lookup, const Show& show, const E
 /// One region's part of that. `out` is of the whole image.
 void play_rows(const LightRows& rows, Lookup lookup, const Show& show, const Exposure& exposure,
                CapturedStack& out);
-
-/// Aᵀ·y: at each pixel of one source, the sum over camera pixels and its entries of weight·share·y, where
-/// share is what `lookup` takes of the texel for the entry. So y·(A·p) = p·(Aᵀ·y) for any picture p in [0,
-/// 1]. `camera_image` has the camera's size.
-Image<double> apply_transpose(const ImageRows& image, Lookup lookup, const Image<float>& camera_image,
-                              glm::ivec2 projector_size, std::uint32_t source = 0);
 
 /// Direct light from maps of the whole image, played and exposed. Pixels without the projector's light get
 /// the ambient light; those that see nothing, or a back side, are black (but for noise). Throws InputError

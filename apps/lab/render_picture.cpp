@@ -5,6 +5,7 @@
 #include "render/effects/scaler.h"
 #include "render/replay.h"
 #include "render/trace_rows.h"
+#include "render/transpose.h"
 #include "sim/error.h"
 #include "sim/formats/exr_camera.h"
 #include "sim/image_file.h"

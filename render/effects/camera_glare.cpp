@@ -1,6 +1,6 @@
 #include "render/effects/camera_glare.h"
 
-#include "render/replay.h"
+#include "render/transpose.h"
 #include "sim/parallel.h"
 
 #include <numeric>

@@ -1,8 +1,10 @@
 // Captured pictures beside closed forms that share nothing with the code under test but the scene.
 #include "render/replay.h"
 
+#include "render/transpose.h"
 #include "sim/parallel.h"
 #include "tests/render/rig.h"
+#include "tests/render/sampled.h"
 #include "tests/testing.h"
 
 #include <algorithm>
@@ -16,6 +18,8 @@ namespace {
 using testing::constant_pattern;
 using testing::device_at;
 using testing::object_of;
+using testing::random_pattern;
+using testing::Sampled;
 using testing::scene_of;
 using testing::Traced;
 
@@ -23,13 +27,6 @@ CapturedStack capture(const Scene& scene, const PatternStack& patterns, const Ex
   const Traced traced(scene);
   return capture_stack(traced.surface, traced.light, scene.projectors[0], patterns, scene.ambient_lx,
                        exposure);
-}
-
-PatternStack random_pattern(glm::ivec2 size, int count) {
-  auto random = testing::generator();
-  PatternStack patterns = constant_pattern(size, count, 0);
-  for (auto& value : patterns.values) value = std::uint8_t(random());
-  return patterns;
 }
 
 // A pinhole that looks from a place to another with y up, from scratch.
@@ -238,22 +235,6 @@ TEST(CaptureStack, NoiseHasItsSigmaAndTheSameBitsForAnyThreads) {
             std::vector(one.picture(4).begin(), one.picture(4).end()));
 }
 
-struct Sampled {
-  Scene scene;
-  RayScene rays;
-  CameraRays directions;
-
-  Sampled()
-      : scene(scene_of({object_of(relief(2, 2, 0.3, 40, 40))},
-                       device_at({0.3, 0, 3}, {0, 0, 0}, {130, 90}, 150),
-                       device_at({-0.3, 0, 3}, {0, 0, 0}, {60, 40}, 60))),
-        rays(scene),
-        directions(scene.cameras[0].device) {}
-  ImageRows image(int samples, glm::ivec2 region_px = {256, 4}) const {
-    return {{130, 90}, trace_rows(rays, scene, 0, directions, 0, {samples, 9}), region_px};
-  }
-};
-
 TEST(PlayLuminance, IsLinearInThePattern) {
   const Sampled sampled;
   PatternStack p = random_pattern({60, 40}, 21), q = random_pattern({60, 40}, 21), sum = p;
@@ -270,23 +251,6 @@ TEST(PlayLuminance, IsLinearInThePattern) {
     EXPECT_GT(most, 1);
     for (std::size_t i = 0; i < c.values.size(); ++i)
       ASSERT_NEAR(2 * a.values[i] + b.values[i], c.values[i], 1e-6 * most);  // about ten roundings of 2⁻²⁴
-  }
-}
-
-TEST(ApplyTranspose, AgreesInInnerProducts) {
-  const Sampled sampled;
-  const PatternStack p = random_pattern({60, 40}, 1);
-  auto random = testing::generator();
-  Image<float> y(130, 90);
-  for (float& value : y.values) value = std::uniform_real_distribution<float>(0, 1)(random);
-  for (const Lookup lookup : {Lookup::nearest, Lookup::bilinear}) {
-    const auto picture = play_luminance(sampled.image(3), lookup, p);
-    const Image<double> back = apply_transpose(sampled.image(3), lookup, y, {60, 40});
-    double forward = 0, backward = 0;
-    for (std::size_t i = 0; i < y.values.size(); ++i) forward += double(y.values[i]) * picture.values[i];
-    for (std::size_t i = 0; i < back.values.size(); ++i) backward += back.values[i] * p.values[i] / 255;
-    EXPECT_GT(forward, 100);
-    EXPECT_NEAR(backward / forward, 1, 1e-6);  // pictures are in single precision
   }
 }
 

@@ -2,6 +2,7 @@
 #include "render/effects/inter_reflection.h"
 
 #include "render/pixel_samples.h"
+#include "render/transpose.h"
 #include "sim/parallel.h"
 #include "tests/render/effects/lit_scene.h"
 #include "tests/testing.h"

@@ -1,6 +1,7 @@
 // A projector's blur disc over depth, its light and its border.
 #include "render/effects/projector_defocus.h"
 
+#include "render/transpose.h"
 #include "tests/render/effects/lit_scene.h"
 #include "tests/testing.h"
 
