@@ -1,5 +1,6 @@
 #include "apps/lab/selfcal_report.h"
 
+#include "apps/lab/json_number.h"
 #include "apps/lab/trial_report.h"
 #include "calib/boards/rig.h"
 #include "calib/correspondences.h"
@@ -19,8 +20,6 @@ namespace {
 
 constexpr std::size_t most_points = 2000;
 
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
 // fx, fy, cx, cy, k1, ...
 std::string parameter_key(const SelfCalibration& c, std::size_t d, std::size_t i) {
   constexpr std::array<const char*, 4> keys = {"fx", "fy", "cx", "cy"};
@@ -32,14 +31,14 @@ Json ladder_json(const TrackLadder& ladder) {
   Json rungs = Json::array();
   for (const TrackRung& rung : ladder.rungs) {
     Json folds = Json::array();
-    for (const HeldOutPose& fold : rung.held_out.folds) folds.push_back(number(fold.rms_px));
+    for (const HeldOutPose& fold : rung.held_out.folds) folds.push_back(finite_or_null(fold.rms_px));
     rungs.push_back({{"added", rung.added},
                      {"terms", rung.terms},
                      {"solved", rung.solved},
                      {"chosen", rung.chosen},
-                     {"fit_rms_px", number(rung.fit_rms_px)},
-                     {"held_out_px", {{"rms", number(rung.held_out.rms_px)}, {"folds", folds}}},
-                     {"gain_over_error", number(rung.gain_over_error)}});
+                     {"fit_rms_px", finite_or_null(rung.fit_rms_px)},
+                     {"held_out_px", {{"rms", finite_or_null(rung.held_out.rms_px)}, {"folds", folds}}},
+                     {"gain_over_error", finite_or_null(rung.gain_over_error)}});
   }
   return rungs;
 }
@@ -80,7 +79,7 @@ Json device_json(const SelfCalibration& c, std::size_t d) {
   Json sigma = Json::object();
   const auto at = columns_of(c.tracks).intrinsics[d];
   for (std::size_t i = 0; i < at.size(); ++i)
-    if (at[i] >= 0) sigma[parameter_key(c, d, i)] = number(c.sigma[at[i]]);
+    if (at[i] >= 0) sigma[parameter_key(c, d, i)] = finite_or_null(c.sigma[at[i]]);
   return {{"name", name},
           {"size", {k.size.x, k.size.y}},
           {"fx", k.fx},
@@ -97,8 +96,8 @@ Json station_json(const SelfCalibration& c, std::size_t s) {
           {"station", c.tracks.stations[s].name},
           {"device_from_first", rows_of(c.rig.station_from_first[s])},
           {"sightings", r.sightings},
-          {"fit_rms_px", number(r.rms_px)},
-          {"predicted_px", number(r.predicted_px)}};
+          {"fit_rms_px", finite_or_null(r.rms_px)},
+          {"predicted_px", finite_or_null(r.predicted_px)}};
 }
 
 // To look at: those that were placed, thinned.
@@ -109,7 +108,7 @@ Json points_json(const SelfCalibration& c) {
   Json points = Json::array();
   for (const std::size_t k : evenly_spread(placed.size(), most_points)) {
     const glm::dvec3& x = c.rig.points[std::size_t(placed[k])];
-    points.push_back({number(x.x), number(x.y), number(x.z)});
+    points.push_back({finite_or_null(x.x), finite_or_null(x.y), finite_or_null(x.z)});
   }
   return points;
 }
@@ -142,20 +141,20 @@ Json selfcal_json(const SelfCalibration& c) {
   for (const DroppedSighting& d : c.dropped)
     json["dropped"].push_back({{"point", c.tracks.point_names[d.sighting.point]},
                                {"station", c.tracks.station_name(d.sighting.station)},
-                               {"residual_sigmas", number(d.residual_sigmas)}});
+                               {"residual_sigmas", finite_or_null(d.residual_sigmas)}});
   if (!c.weakest_direction.empty())
     json["weakest"] = {{"direction", c.weakest_direction},
-                       {"sigma", number(c.weakest_sigma)},
-                       {"gap", number(c.smallest_gap)}};
+                       {"sigma", finite_or_null(c.weakest_sigma)},
+                       {"gap", finite_or_null(c.smallest_gap)}};
   if (c.status == Status::refused) return json;
   json["unit"] = c.metric ? "metre" : "baseline";
   json["unit_baselines"] = Json::array();
   for (const auto& [a, b] : c.units)
     json["unit_baselines"].push_back({c.tracks.station_name(a), c.tracks.station_name(b)});
-  json["fit_rms_px"] = number(c.fit_rms_px);
-  json["residual_scale"] = number(c.residual_scale);
-  json["focal_sigma"] = number(c.focal_sigma);
-  json["lens_sigma"] = number(c.lens_sigma);
+  json["fit_rms_px"] = finite_or_null(c.fit_rms_px);
+  json["residual_scale"] = finite_or_null(c.residual_scale);
+  json["focal_sigma"] = finite_or_null(c.focal_sigma);
+  json["lens_sigma"] = finite_or_null(c.lens_sigma);
   json["ladder"] = ladder_json(c.ladder);
   for (std::size_t d = 0; d < c.rig.devices.size(); ++d) json["devices"].push_back(device_json(c, d));
   for (std::size_t s = 0; s < c.stations.size(); ++s) json["stations"].push_back(station_json(c, s));

@@ -1,5 +1,6 @@
 #include "apps/lab/trial_report.h"
 
+#include "apps/lab/json_number.h"
 #include "apps/lab/matrices.h"
 #include "sim/error.h"
 #include "sim/plain_name.h"
@@ -16,8 +17,6 @@ using Json = nlohmann::json;
 
 namespace {
 
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
 Json seconds_json(const StageTimes& times) {
   Json json = Json::object();
   for (const auto& stage : times.stages) json[stage.name] = stage.seconds;
@@ -28,7 +27,7 @@ Json seconds_json(const StageTimes& times) {
 Json sigma_json(const SolveResult& solve) {
   Json json = Json::object();
   for (std::size_t i = 0; i < solve.sigma.size(); ++i)
-    json[solve.parameter_names[i]] = number(solve.sigma[i]);
+    json[solve.parameter_names[i]] = finite_or_null(solve.sigma[i]);
   return json;
 }
 
@@ -43,10 +42,10 @@ std::vector<double> values_of(const Device& d) {
 
 // How the prediction is made up, where cameras are uncertain.
 Json camera_share_json(const SolveResult& solve) {
-  return {
-      {"from_noise", number(std::sqrt(std::max(0.0, std::pow(solve.predicted_volume_rms_px, 2) -
-                                                        std::pow(solve.predicted_volume_rms_camera_px, 2))))},
-      {"from_camera", number(solve.predicted_volume_rms_camera_px)}};
+  return {{"from_noise",
+           finite_or_null(std::sqrt(std::max(0.0, std::pow(solve.predicted_volume_rms_px, 2) -
+                                                      std::pow(solve.predicted_volume_rms_camera_px, 2))))},
+          {"from_camera", finite_or_null(solve.predicted_volume_rms_camera_px)}};
 }
 
 std::string error_line(const char* name, const ErrorSummary& e) {
@@ -88,10 +87,10 @@ std::string status_word(Status status) {
 }
 
 Json error_json(const ErrorSummary& e) {
-  return {{"rms", number(e.rms)},
-          {"max", number(e.max)},
+  return {{"rms", finite_or_null(e.rms)},
+          {"max", finite_or_null(e.max)},
           {"points", e.points},
-          {"predicted_rms", number(e.predicted_rms)}};
+          {"predicted_rms", finite_or_null(e.predicted_rms)}};
 }
 
 Json estimate_json(const std::string& name, const SolveResult& solve) {
@@ -116,7 +115,7 @@ Json estimate_json(const std::string& name, const SolveResult& solve) {
           {"sigma", sigma_json(solve)},
           {"parameters", solve.parameter_names},
           {"covariance", solve.covariance},
-          {"predicted_volume_rms_px", number(solve.predicted_volume_rms_px)},
+          {"predicted_volume_rms_px", finite_or_null(solve.predicted_volume_rms_px)},
           {"predicted_volume_px", camera_share_json(solve)}};
 }
 
@@ -162,11 +161,12 @@ Json trial_json(const Scene&, const std::vector<ProjectorOutcome>& outcomes, con
                {"estimate", refused ? Json(nullptr) : estimate_json(o.name, o.solve)},
                {"seconds", seconds_json(o.times)}};
     if (!refused) {
-      entry["fit_rms_px"] = number(o.solve.fit_rms_px);
-      entry["predicted_volume_rms_independent_px"] = number(o.solve.predicted_volume_rms_independent_px);
-      entry["predicted_volume_rms_px"] = number(o.solve.predicted_volume_rms_px);
+      entry["fit_rms_px"] = finite_or_null(o.solve.fit_rms_px);
+      entry["predicted_volume_rms_independent_px"] =
+          finite_or_null(o.solve.predicted_volume_rms_independent_px);
+      entry["predicted_volume_rms_px"] = finite_or_null(o.solve.predicted_volume_rms_px);
       entry["clusters"] = o.solve.clusters;
-      entry["relief_over_throw"] = number(o.solve.relief_over_throw);
+      entry["relief_over_throw"] = finite_or_null(o.solve.relief_over_throw);
       entry["iterations"] = o.solve.iterations;
       entry["termination"] = o.solve.termination;
     }

@@ -1,5 +1,5 @@
 // A printed board in several places, as a table of what was seen, to a camera and a projector.
-#include "apps/lab/board_report.h"
+#include "apps/lab/board_json.h"
 #include "apps/lab/trial_report.h"
 #include "apps/python/arrays.h"
 #include "apps/python/json_value.h"

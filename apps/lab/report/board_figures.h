@@ -5,7 +5,7 @@
 
 namespace laterna {
 
-/// Of board_json() (board_report.h): the lens ladder, the rig, uncertainty by range, each pose left out;
+/// Of board_json() (board_json.h): the lens ladder, the rig, uncertainty by range, each pose left out;
 /// those for which it has numbers.
 void add_board_figures(const nlohmann::json& board, std::vector<StaticFigure>& figures);
 

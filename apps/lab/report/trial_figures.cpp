@@ -1,5 +1,6 @@
 #include "apps/lab/report/trial_figures.h"
 
+#include "apps/lab/json_number.h"
 #include "calib/correspondences.h"
 #include "calib/verify.h"
 
@@ -17,8 +18,6 @@ namespace {
 
 constexpr std::size_t most_triangles = 20000, most_residuals = 20000, most_arrows = 1500, most_points = 3000;
 constexpr int cells_along = 96, bins = 40;
-
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 // Six digits are plenty for looking at, and short.
 double shortened(double value) {
@@ -125,8 +124,12 @@ Json grid_row(const Device& truth, const Device& estimate, const std::vector<dou
   const glm::dvec3 pixel = WorldProjection(truth).project(point);
   const glm::dvec2 error = error_vectors(truth, estimate, {&point, 1}).front();
   const auto sigma = predicted_rms(estimate, covariance, {&point, 1});
-  return {{"depth_m", depth_m},    {"u", number(pixel.x)},  {"v", number(pixel.y)},
-          {"du", number(error.x)}, {"dv", number(error.y)}, {"sigma_px", sigma ? number(*sigma) : Json()}};
+  return {{"depth_m", depth_m},
+          {"u", finite_or_null(pixel.x)},
+          {"v", finite_or_null(pixel.y)},
+          {"du", finite_or_null(error.x)},
+          {"dv", finite_or_null(error.y)},
+          {"sigma_px", finite_or_null(sigma)}};
 }
 
 Json range_rows(const Device& truth, const Device& estimate, const std::vector<double>& covariance,
@@ -139,8 +142,8 @@ Json range_rows(const Device& truth, const Device& estimate, const std::vector<d
     if (points.empty()) continue;
     const auto predicted = predicted_rms(estimate, covariance, points);
     rows.push_back({{"depth_m", depth},
-                    {"error_rms_px", number(rms_of(error_vectors(truth, estimate, points)))},
-                    {"predicted_rms_px", predicted ? number(*predicted) : Json()}});
+                    {"error_rms_px", finite_or_null(rms_of(error_vectors(truth, estimate, points)))},
+                    {"predicted_rms_px", finite_or_null(predicted)}});
   }
   return rows;
 }

@@ -1,4 +1,4 @@
-// What a calibration from boards found, for machines and for people.
+// What a calibration from boards found, for machines.
 #pragma once
 
 #include "apps/lab/board_folders.h"
@@ -7,7 +7,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include <string>
+#include <vector>
 
 namespace laterna {
 
@@ -22,23 +22,14 @@ namespace laterna {
 /// empty and the numbers null; a number that is not finite is null.
 nlohmann::json board_json(const BoardCalibration& calibration);
 
-/// The same as a report to read: ladder, parameters with sigmas, poses, how sure the pixels are, verdict.
-std::string board_text(const BoardCalibration& calibration);
-
 /// Adds "placements": [{"folder", "board", "pose", "points", "projectors": [{"name", "points",
 /// "median_residual_px"}]}] and "warnings": [sentence] to what board_json() made.
 void add_placements(nlohmann::json& json, const BoardFolders& folders);
-
-/// The same as a table; empty without placements and warnings.
-std::string placements_text(const BoardFolders& folders);
 
 /// [{"method", "failure", "fit_rms_px", "held_out_px": {"rms", "folds", "failed"}, "seconds", "over_bound",
 /// "projector":
 /// {"fx", "fy", "cx", "cy"}}]: every method on the same sightings. over_bound is null where no truth is
 /// known.
 nlohmann::json methods_json(const std::vector<MethodResult>& results);
-
-/// The same as a table.
-std::string methods_text(const std::vector<MethodResult>& results);
 
 }  // namespace laterna
