@@ -30,8 +30,7 @@ double gamma_of(double mean_rest) {
 
 }  // namespace
 
-double bent_response_shift_px(double mean_rest, int steps, double pitch_px) {
-  const double gamma = gamma_of(std::abs(mean_rest));
+double response_shift_px(double gamma, int steps, double pitch_px) {
   double squares = 0;
   for (int i = 0; i < samples; ++i) {
     const double theta = two_pi * (i + 0.5) / samples;
@@ -41,6 +40,10 @@ double bent_response_shift_px(double mean_rest, int steps, double pitch_px) {
     squares += std::pow(std::arg(sum * std::polar(1.0, -theta)), 2);
   }
   return std::sqrt(squares / samples) / two_pi * pitch_px;
+}
+
+double bent_response_shift_px(double mean_rest, int steps, double pitch_px) {
+  return response_shift_px(gamma_of(std::abs(mean_rest)), steps, pitch_px);
 }
 
 }  // namespace laterna

@@ -1,6 +1,7 @@
 #include "sim/texture_matrix.h"
 
 #include "sim/error.h"
+#include "sim/rq.h"
 
 #include <fmt/format.h>
 
@@ -80,7 +81,7 @@ glm::dmat4x3 pixel_from_object(const glm::dmat4& t, glm::ivec2 size) {
 }
 
 TextureMatrixParts decompose(const glm::dmat4& texture_from_world, glm::ivec2 size) {
-  glm::dmat4x3 a = pixel_from_object(texture_from_world, size);
+  const glm::dmat4x3 a = pixel_from_object(texture_from_world, size);
   const double det = glm::determinant(glm::dmat3(a));
   const glm::dmat3x4 rows = glm::transpose(a);
   const double volume =
@@ -89,22 +90,12 @@ TextureMatrixParts decompose(const glm::dmat4& texture_from_world, glm::ivec2 si
     throw InputError(
         "texture matrix: its left 3×3 block is singular, expected a projection with a finite centre");
   }
-  if (det < 0) a *= -1.0;
-  const glm::dmat3x4 m = glm::transpose(a);
-  const glm::dvec3 m0(m[0]), m1(m[1]), m2(m[2]);
-  const double scale = glm::length(m2);
-  const glm::dvec3 z = m2 / scale;
-  const double cy = glm::dot(m1, z) / scale, cx = glm::dot(m0, z) / scale;
-  const glm::dvec3 fy_y = m1 / scale - cy * z;
-  const double fy = glm::length(fy_y);
-  const glm::dvec3 y = fy_y / fy;
-  const double skew = glm::dot(m0, y) / scale;
-  const glm::dvec3 fx_x = m0 / scale - cx * z - skew * y;
-  const double fx = glm::length(fx_x);
-  const glm::dvec3 b(m[0].w / scale, m[1].w / scale, m[2].w / scale);
-  const double ty = (b.y - cy * b.z) / fy;
-  const glm::dvec3 t((b.x - skew * ty - cx * b.z) / fx, ty, b.z);
-  return {{size, fx, fy, cx, cy}, {glm::transpose(glm::dmat3(fx_x / fx, y, z)), t}, skew};
+  const KAndR parts = k_and_r(glm::dmat3(a), size);
+  const Intrinsics& k = parts.intrinsics;
+  const glm::dvec3 b = a[3] / parts.scale;  // K·t
+  const double ty = (b.y - k.cy * b.z) / k.fy;
+  const glm::dvec3 t((b.x - parts.skew_px * ty - k.cx * b.z) / k.fx, ty, b.z);
+  return {k, {parts.rotation, t}, parts.skew_px};
 }
 
 }  // namespace laterna

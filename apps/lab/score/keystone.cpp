@@ -3,6 +3,8 @@
 #include "calib/correspondences.h"
 #include "calib/projection_rows.h"
 #include "render/effects/scaler.h"
+#include "sim/rq.h"
+#include "sim/texture_matrix.h"
 
 #include <fmt/format.h>
 #include <opencv2/core.hpp>
@@ -136,17 +138,13 @@ cv::Mat column(const std::vector<glm::dvec2>& pixels) {
 
 // h·K·R of the true projector as K and R again, without the skew; its centre and lens stay.
 Device without_skew(Device d, const glm::dmat3& h) {
-  const Intrinsics& k = d.intrinsics;
-  const glm::dmat3 matrix(k.fx, 0.0, 0.0, 0.0, k.fy, 0.0, k.cx, k.cy, 1.0);
-  const glm::dmat3 rows = glm::transpose(h * matrix * d.device_from_world.rotation);
+  const glm::ivec2 size = d.intrinsics.size;
+  const glm::dmat4x3 pixel_from_world =
+      pixel_from_object(texture_from_object(d.intrinsics, {}, d.device_from_world), size);
+  const KAndR parts = k_and_r(h * glm::dmat3(pixel_from_world), size);
   const glm::dvec3 centre_world = center_in_world(d.device_from_world);
-  const double scale = 1 / glm::length(rows[2]);
-  const glm::dvec3 z = rows[2] * scale, u = rows[0] * scale, v = rows[1] * scale;
-  const double cx = glm::dot(u, z), cy = glm::dot(v, z);
-  const glm::dvec3 y = glm::normalize(v - cy * z), x = glm::cross(y, z);
-  d.intrinsics = {k.size, glm::dot(u, x), glm::dot(v, y), cx, cy};
-  const glm::dmat3 rotation = glm::transpose(glm::dmat3(x, y, z));
-  d.device_from_world = {rotation, -(rotation * centre_world)};
+  d.intrinsics = parts.intrinsics;
+  d.device_from_world = {parts.rotation, -(parts.rotation * centre_world)};
   return d;
 }
 

@@ -1,5 +1,6 @@
 #include "apps/lab/score/picture_suspects.h"
 
+#include "calib/bent_response.h"
 #include "calib/dlt.h"
 #include "calib/solve.h"
 #include "calib/sum_check.h"
@@ -8,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace laterna {
@@ -16,6 +18,7 @@ namespace {
 
 constexpr std::size_t most_pixels = 4000, fewest_pixels = 100;
 constexpr double least_range = 0.1;
+constexpr double wrong = 0.05, most_left = 0.1, least_turned = 0.8, harmless_px = 0.01;
 
 // Pixel by pixel, all pictures side by side: shares of the pixel's range, and what they should be.
 struct Shares {
@@ -44,6 +47,24 @@ std::vector<Site> sites(const Scene& scene, int projector, const LightMap& truth
   }
   for (const std::size_t i : evenly_spread(all.size(), most_pixels)) chosen.push_back(all[i]);
   return chosen;
+}
+
+// How a camera's driver may hand its pictures over, and the words for it.
+struct Turn {
+  bool in_x, in_y;
+  const char* words;
+};
+constexpr std::array<Turn, 3> turns{{{false, true, "upside down"},
+                                     {true, false, "mirrored left to right"},
+                                     {true, true, "turned by half a circle"}}};
+
+std::vector<Site> turned(std::vector<Site> sites, const Turn& turn, const LightMap& truth) {
+  const std::size_t width = truth.why.width, height = truth.why.height;
+  for (Site& site : sites) {
+    const std::size_t x = site.camera_pixel % width, y = site.camera_pixel / width;
+    site.camera_pixel = (turn.in_y ? height - 1 - y : y) * width + (turn.in_x ? width - 1 - x : x);
+  }
+  return sites;
 }
 
 std::vector<double> values_at(const CapturedStack& pictures, std::size_t camera_pixel) {
@@ -80,6 +101,16 @@ Shares shares_of(const std::vector<Site>& sites, const CapturedStack& pictures,
   return shares;
 }
 
+// Mean over the pixels of Σ_k (m_k - p_k)².
+double disagreement(const Shares& shares) {
+  double sum = 0;
+  for (std::size_t i = 0; i < shares.measured.size(); ++i) {
+    const double d = shares.measured[i] - shares.expected[i];
+    sum += d * d;
+  }
+  return sum / double(shares.pixels);
+}
+
 // Mean of (m_k - p_j)², where picture k should show pattern j.
 std::vector<double> disagreements(const Shares& shares) {
   const int n = shares.pictures;
@@ -107,27 +138,52 @@ std::optional<Suspect> wrong_order(const Shares& shares, const PatternSequence& 
   const std::vector<double> table = disagreements(shares);
   const auto axes = axes_of(sequence);
   const int n = shares.pictures;
-  double as_named = 0, as_best = 0;
+  double as_named = 0, as_best = 0, moved_named = 0, moved_best = 0;
   int moved = 0, first = -1, to_other_axis = 0;
   for (int k = 0; k < n; ++k) {
     const auto row = table.begin() + std::ptrdiff_t(k) * n;
     const auto best = std::min_element(row, row + n);
     const double own = row[k];
     as_named += own;
-    const bool is_other = own > 0.05 && *best < own / 3;
+    const bool is_other = own > wrong && *best < own / 3;
     as_best += is_other ? *best : own;
     if (!is_other) continue;
+    moved_named += own, moved_best += *best;
     if (first < 0) first = k;
     ++moved;
     const auto shown = axes[best - row];
     to_other_axis += axes[k] && shown && *axes[k] != *shown;
   }
-  if (moved == 0) return std::nullopt;
+  if (moved == 0 || moved_best > most_left * moved_named || as_best > wrong * n) return std::nullopt;
   const bool is_exchanged = 2 * to_other_axis > n;
   const std::string name = is_exchanged ? "axes_exchanged" : "dropped_frame";
   return Suspect{name, 1 - as_best / as_named,
                  fmt::format("{} (\"{}\" is the first of {} pictures that show another pattern)",
                              advice(name), picture_name(sequence, first), moved)};
+}
+
+std::optional<Suspect> turned_pictures(const std::vector<Site>& sites, const LightMap& truth,
+                                       const CapturedStack& pictures, const PatternSequence& sequence,
+                                       double as_named) {
+  std::optional<Suspect> best;
+  for (const Turn& turn : turns) {
+    const Shares shares = shares_of(turned(sites, turn, truth), pictures, sequence);
+    if (shares.pixels < fewest_pixels) continue;
+    const double explains = 1 - disagreement(shares) / as_named;
+    if (!(explains > (best ? best->explains : least_turned))) continue;
+    best = {"y_flipped", explains,
+            fmt::format("the camera's pictures are {}: take them as its sensor saw them", turn.words)};
+  }
+  return best;
+}
+
+// Whether fringes of this response lead a decoder astray: not where they have steps enough.
+bool is_harmful(double gamma, const PatternSequence& sequence) {
+  for (const PatternGroup& group : pattern_groups(sequence)) {
+    if (group.kind != PatternGroup::Kind::fringe) continue;
+    if (group.count < 3 || response_shift_px(gamma, group.count, group.pitch_px) > harmless_px) return true;
+  }
+  return false;
 }
 
 double fringe_misfit(const Shares& shares, const std::vector<int>& pictures, double gamma) {
@@ -156,7 +212,8 @@ std::optional<Suspect> bent_response(const Shares& shares, const PatternSequence
     if (misfit < least) least = misfit, best_gamma = gamma;
   }
   const double explains = 1 - least / straight;
-  if ((best_gamma > 0.9 && best_gamma < 1.1) || !(explains > 0.5)) return std::nullopt;
+  if ((best_gamma > 0.9 && best_gamma < 1.1) || !(explains > 0.5) || !is_harmful(best_gamma, sequence))
+    return std::nullopt;
   return Suspect{"gamma", explains, fmt::format("{} (fringes follow p^{:.2f})", advice("gamma"), best_gamma)};
 }
 
@@ -165,13 +222,15 @@ std::optional<Suspect> bent_response(const Shares& shares, const PatternSequence
 std::vector<Suspect> picture_suspects(const Scene& scene, int projector, const LightMap& truth,
                                       const CapturedStack& pictures, const PatternSequence& sequence) {
   if (!is_coded(sequence.parameters.kind)) return {};
-  const Shares shares =
-      shares_of(sites(scene, projector, truth, sequence.projector_size), pictures, sequence);
+  const std::vector<Site> looked_at = sites(scene, projector, truth, sequence.projector_size);
+  const Shares shares = shares_of(looked_at, pictures, sequence);
   if (shares.pixels < fewest_pixels) return {};
-  std::vector<Suspect> suspects;
-  if (const auto order = wrong_order(shares, sequence)) suspects.push_back(*order);
-  if (const auto bent = bent_response(shares, sequence); bent && suspects.empty()) suspects.push_back(*bent);
-  return suspects;
+  const auto order = wrong_order(shares, sequence);
+  const auto turned = turned_pictures(looked_at, truth, pictures, sequence, disagreement(shares));
+  if (turned && (!order || turned->explains > order->explains)) return {*turned};
+  if (order) return {*order};
+  if (const auto bent = bent_response(shares, sequence)) return {*bent};
+  return {};
 }
 
 std::optional<Suspect> keystone_suspect(const Correspondences& decoded, glm::ivec2 projector_size,

@@ -3,6 +3,7 @@
 #include "calib/correspondences.h"
 #include "calib/verify.h"
 #include "sim/error.h"
+#include "sim/resample.h"
 
 #include <algorithm>
 #include <cmath>
@@ -32,7 +33,8 @@ Probe make_probe(const ScoreRig& truth, const Alignment& alignment,
 }
 
 glm::dvec2 stretched(const glm::dvec2& pixel, glm::ivec2 from, glm::ivec2 to) {
-  return (pixel + 0.5) * glm::dvec2(to) / glm::dvec2(from) - 0.5;
+  const glm::dvec2 scale = glm::dvec2(to) / glm::dvec2(from);
+  return {resampled_place_px(pixel.x, scale.x), resampled_place_px(pixel.y, scale.y)};
 }
 
 std::vector<glm::dvec2> result_pixels(const ScoreRig& result, const ScoreRig& truth,

@@ -210,6 +210,8 @@ ProjectorScore score_one(const ScoreTruth& truth, const Traced& traced, const Pr
                  ? Status::ok
                  : Status::weak;
   PictureEvidence evidence = evidence_of(truth, traced, predicted, p);
+  if (s.status == Status::ok)
+    std::erase_if(evidence.suspects, [](const Suspect& x) { return x.name == "gamma"; });
   const double noise_px = excuses ? s.volume_bound_px : 0;
   std::vector<Suspect> geometric;
   if (s.status != Status::ok)

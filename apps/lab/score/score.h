@@ -55,7 +55,8 @@ struct ProjectorScore {
   double surface_bound_px = 0, volume_bound_px = 0;
   double predicted_volume_px = 0;  ///< what the result's own covariance predicts; NaN without one
   Alignment alignment{};
-  /// Most likely first: of geometry, where the status is not ok, and of pictures, where they are there.
+  /// Most likely first: of geometry, where the status is not ok, and of pictures, where they are there. A
+  /// gamma that left the result ok is not named.
   std::vector<Suspect> suspects{};
 };
 

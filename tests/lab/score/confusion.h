@@ -24,7 +24,8 @@ std::vector<Verdict> planted_verdicts(int rigs, std::uint64_t seed);
 /// as "two mistakes".
 std::map<std::string, double> named_rates(const std::vector<Verdict>& verdicts);
 
-/// How many right results, and noisy ones up to three times the bound, have anybody named.
+/// How many right results, noisy ones up to three times the bound, and those that a gamma did no harm to have
+/// anybody named.
 int falsely_named(const std::vector<Verdict>& verdicts);
 
 /// Planted (and how) × first named, as a table for people.

@@ -2,6 +2,7 @@
 
 #include "calib/refine.h"
 #include "calib/solve.h"
+#include "sim/rq.h"
 
 #include <cmath>
 #include <utility>
@@ -122,19 +123,11 @@ void add_exchanges(std::vector<Planted>& all) {
 // The free matrix H·K about the same centre, as K and R without its skew.
 void drop_skew(Device& d, const glm::dmat3& h) {
   const Intrinsics& k = d.intrinsics;
-  const glm::dmat3 matrix =
-      h * glm::dmat3(k.fx, 0.0, 0.0, 0.0, k.fy, 0.0, k.cx, k.cy, 1.0) * d.device_from_world.rotation;
-  const glm::dmat3 m = glm::transpose(matrix);  // its columns are the matrix's rows
-  const double scale = 1 / glm::length(m[2]);
-  const glm::dvec3 z = m[2] * scale, a = m[1] * scale, b = m[0] * scale;
-  const double cy = glm::dot(a, z), fy = glm::length(a - cy * z);
-  const glm::dvec3 y = (a - cy * z) / fy;
-  const double cx = glm::dot(b, z), skew = glm::dot(b, y);
-  const glm::dvec3 x = b - cx * z - skew * y;
+  const glm::dmat3 matrix(k.fx, 0.0, 0.0, 0.0, k.fy, 0.0, k.cx, k.cy, 1.0);
+  const KAndR parts = k_and_r(h * matrix * d.device_from_world.rotation, k.size);
   const glm::dvec3 centre_world = center_in_world(d.device_from_world);
-  const glm::dmat3 rotation = glm::transpose(glm::dmat3(glm::normalize(x), y, z));
-  d.device_from_world = {rotation, -(rotation * centre_world)};
-  d.intrinsics = {k.size, glm::length(x), fy, cx, cy};
+  d.intrinsics = parts.intrinsics;
+  d.device_from_world = {parts.rotation, -(parts.rotation * centre_world)};
 }
 
 // A projector of the scene's world takes the place of the result's, in the result's world.

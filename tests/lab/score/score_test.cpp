@@ -9,6 +9,7 @@
 #include "sim/scene_file.h"
 #include "tests/testing.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 namespace laterna {
@@ -257,13 +258,32 @@ TEST(Score, AScalersPictureIsNamed) {
   }
 }
 
-TEST(Score, ABentResponseIsNamed) {
-  const Scene scene =
-      scene_of(false, "[patterns]\nkind = \"gray_phase\"\nsteps = 3\n[effects]\nresponse = true\n",
-               "response_exponent = 2.2");
-  EXPECT_EQ(first_name(scored(scene, scene.projectors[0].device)), "gamma");
-  const Scene linear = scene_of(false, "[patterns]\nkind = \"gray_phase\"\nsteps = 3\n");
-  EXPECT_EQ(first_name(scored(linear, linear.projectors[0].device)), "");
+// What is recovered from the scene's own pictures.
+Device recovered(const Scene& scene) {
+  StageTimes times;
+  return run_trial(scene, trace(scene, times), {}, times).at(0).solve.estimate;
+}
+
+TEST(Score, ABentResponseIsNamedWhereItDoesHarm) {
+  const auto scene = [](const char* kind, int steps, double exponent) {
+    return scene_of(
+        false,
+        fmt::format("[patterns]\nkind = \"{}\"\nsteps = {}\n[effects]\nresponse = true\n", kind, steps),
+        fmt::format("response_exponent = {}", exponent));
+  };
+  const Scene bent = scene("phase", 3, 2.2), linear = scene("phase", 3, 1.0);
+  EXPECT_EQ(first_name(scored(bent, recovered(bent))), "gamma");
+  EXPECT_EQ(first_name(scored(linear, recovered(linear))), "");
+  EXPECT_EQ(first_name(scored(bent, bent.projectors[0].device)), "");  // right whatever its pictures
+  // Eight steps or black and white hide it: another's mistake is not blamed on it.
+  for (const Scene& harmless : {scene("phase", 8, 2.2), scene("gray", 4, 2.2)}) {
+    Device wrong = harmless.projectors[0].device;
+    EXPECT_EQ(first_name(scored(harmless, recovered(harmless))), "");
+    wrong.intrinsics.cx += 0.5, wrong.intrinsics.cy += 0.5;
+    const auto suspects = scored(harmless, wrong).at(0).suspects;
+    ASSERT_EQ(suspects.size(), 1u);
+    EXPECT_EQ(suspects[0].name, "half_pixel");
+  }
 }
 
 TEST(Score, ADroppedFrameIsNamed) {
