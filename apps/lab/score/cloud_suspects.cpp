@@ -7,21 +7,25 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace laterna {
 
 namespace {
 
 constexpr std::size_t looked_at = 500;
-constexpr double needed_share = 0.95, within_noise = 3, narrowest = 0.4, widest = 1.6;
+constexpr double kept_share = 0.8, needed_share = 0.95, within_noise = 3, narrowest = 0.4, widest = 1.6;
 constexpr double worst = std::numeric_limits<double>::infinity();
 
-double mean_square(std::span<const double> errors, double most) {
-  double sum = 0;
-  std::size_t count = 0;
+// Of the smaller four fifths, each min(e, most)².
+double trimmed_mean_square(std::span<const double> errors, double most) {
+  std::vector<double> squares;
   for (const double e : errors)
-    if (!std::isnan(e)) sum += std::pow(std::min(e, most), 2), ++count;
-  return count ? sum / double(count) : worst;
+    if (!std::isnan(e)) squares.push_back(std::pow(std::min(e, most), 2));
+  if (squares.empty()) return worst;
+  const auto end = squares.begin() + std::ptrdiff_t(std::ceil(kept_share * double(squares.size())));
+  std::partial_sort(squares.begin(), end, squares.end());
+  return std::accumulate(squares.begin(), end, 0.0) / double(end - squares.begin());
 }
 
 std::vector<glm::dvec3> places(const std::vector<CloudPoint>& points) {
@@ -45,10 +49,10 @@ class Judge {
     }
     if (is_undone && !ground_.camera && !is_as_wide(points)) return worst;
     const CloudErrors errors = cloud_errors(ground_, points, truth);
-    double e = mean_square(ground_.camera ? errors.point_m : errors.surface_m, scale_.most_m) /
+    double e = trimmed_mean_square(ground_.camera ? errors.point_m : errors.surface_m, scale_.most_m) /
                std::pow(scale_.noise_m, 2);
     if (ground_.projector)
-      e += mean_square(errors.projector_px, 10 * within_noise * scale_.noise_px) /
+      e += trimmed_mean_square(errors.projector_px, 10 * within_noise * scale_.noise_px) /
            std::pow(scale_.noise_px, 2);
     return e;
   }

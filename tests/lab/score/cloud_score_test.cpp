@@ -126,6 +126,31 @@ TEST_F(CloudScores, UsualMistakesAreNamed) {
                edited([](CloudPoint& p) { std::swap(p.projector_px.x, p.projector_px.y); }));
 }
 
+TEST_F(CloudScores, OutliersHideNoMistakeAndAnythingElseNamesNobody) {
+  for (const bool has_pixels : {true, false}) {
+    SCOPED_TRACE(has_pixels);
+    auto random = testing::generator();
+    std::normal_distribution<double> normal;
+    const auto noise = [&](double sigma) {
+      return sigma * glm::dvec3(normal(random), normal(random), normal(random));
+    };
+    std::size_t i = 0;
+    expect_named(
+        "unit_scale",
+        edited([&](CloudPoint& p) { p.x_world = ++i % 10 ? 1000.0 * p.x_world : noise(3000); }, has_pixels));
+    const auto names_nobody = [&](const auto& edit) {
+      const CloudScore score = score_cloud(truth(), edited(edit, has_pixels));
+      EXPECT_EQ(score.status, Status::weak);
+      EXPECT_THAT(score.suspects, IsEmpty());
+      EXPECT_EQ(score.better_frame, "");
+    };
+    names_nobody([](CloudPoint& p) { p.x_world.x += 0.2; });
+    names_nobody([&](CloudPoint& p) { p.x_world += noise(0.05); });
+    names_nobody([](CloudPoint& p) { p.x_world *= 1.3; });  // a surface through the origin
+    names_nobody([](CloudPoint& p) { p.x_world.z += 5; });
+  }
+}
+
 TEST_F(CloudScores, ACamerasFrameIsFoundAndMayBeTold) {
   const auto to_eye = [](CloudPoint& p) { p.x_world = apply(eye().device_from_world, p.x_world); };
   for (const bool has_pixels : {true, false}) {
