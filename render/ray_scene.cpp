@@ -264,6 +264,39 @@ std::uint32_t RayScene::trace_shadows(RayPacket& rays) const {
   return blocked;
 }
 
+namespace {
+
+// What Embree is told of a radius: wider by some steps of single precision of all lengths that play a part.
+float safe_radius(double radius_m, double reach_m) {
+  return float(radius_m * (1 + 0x1p-20) + 0x1p-20 * reach_m);
+}
+
+struct NearVisit {
+  const std::function<double(std::uint32_t, std::uint32_t)>& closer;
+  double reach_m;
+};
+
+bool visit_triangle(RTCPointQueryFunctionArguments* args) {
+  const auto& visit = *static_cast<const NearVisit*>(args->userPtr);
+  const float radius = safe_radius(visit.closer(args->geomID, args->primID), visit.reach_m);
+  if (!(radius < args->query->radius)) return false;
+  args->query->radius = radius;
+  return true;
+}
+
+}  // namespace
+
+void RayScene::visit_near(
+    const glm::dvec3& x_relative, double radius_m,
+    const std::function<double(std::uint32_t object, std::uint32_t triangle)>& closer) const {
+  RTCPointQueryContext context;
+  rtcInitPointQueryContext(&context);
+  NearVisit visit{closer, std::abs(x_relative.x) + std::abs(x_relative.y) + std::abs(x_relative.z)};
+  RTCPointQuery query{float(x_relative.x), float(x_relative.y), float(x_relative.z), 0,
+                      safe_radius(radius_m, visit.reach_m)};
+  rtcPointQuery(embree_->scene.get(), &query, &context, visit_triangle, &visit);
+}
+
 std::uint32_t RayScene::occluded(const RayPacket& given) const {
   RayPacket rays = given;
   prepare(rays);

@@ -7,6 +7,7 @@
 #include <glm/glm.hpp>
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -89,6 +90,12 @@ class RayScene {
 
   /// The same for a packet of make_ray_packet(), whose `end` is lost.
   std::uint32_t trace_shadows(RayPacket& rays) const;
+
+  /// Calls closer(object, triangle) for every triangle that may be nearer to a point (relative to the
+  /// scene's centre) than a radius: at first `radius_m`, then what the last call returned, and no larger
+  /// one. The search is in single precision and keeps to the safe side: triangles farther off come too.
+  void visit_near(const glm::dvec3& x_relative, double radius_m,
+                  const std::function<double(std::uint32_t object, std::uint32_t triangle)>& closer) const;
 
  private:
   struct Embree;

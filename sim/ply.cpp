@@ -17,35 +17,11 @@ namespace laterna {
 namespace {
 
 using ply::Element;
+using ply::find_property;
+using ply::list_count;
 using ply::Property;
-
-template <class Body>
-std::uint64_t list_count(Body& body, const Property& list) {
-  const std::int64_t count = body.integer(list.count_type.value_or(ply::Type::uint8));
-  if (count < 0) body.fail(fmt::format("the list `{}` has {} entries, expected 0 or more", list.name, count));
-  return std::uint64_t(count);
-}
-
-template <class Body>
-void skip(Body& body, const Property& property) {
-  body.skip(property.type, property.count_type ? list_count(body, property) : 1);
-}
-
-template <class Body>
-void skip_element(Body& body, const Element& element) {
-  for (std::uint64_t i = 0; i < element.count; ++i) {
-    body.begin_record(element, i);
-    for (const Property& property : element.properties) skip(body, property);
-    body.end_record();
-  }
-}
-
-/// Index of the value named so among an element's properties; -1: none.
-int find_property(const Element& element, std::string_view name) {
-  const auto& all = element.properties;
-  const auto found = std::find_if(all.begin(), all.end(), [&](const Property& p) { return p.name == name; });
-  return found == all.end() ? -1 : int(found - all.begin());
-}
+using ply::skip;
+using ply::skip_element;
 
 /// Which property goes where: slots 0 to 2 take x, y, z, slots 3 and 4 the texture coordinates, -1 nothing.
 struct VertexLayout {
@@ -156,7 +132,7 @@ Mesh read_body(Body body, const ply::Header& header, const std::string& name) {
       read_vertices(body, element, name, mesh);
     } else if (&element == &faces) {
       read_faces(body, element, name, vertices.count, mesh);
-    } else if (!element.properties.empty()) {
+    } else {
       skip_element(body, element);
     }
   }

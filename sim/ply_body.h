@@ -1,4 +1,4 @@
-// The records of a PLY file, value by value. Only sim/ply.cpp needs it.
+// The records of a PLY file, value by value. Only sim/ply.cpp and sim/formats/point_cloud.cpp need it.
 //
 // TextBody and BinaryBody offer the same functions, so that a template reads either: begin_record, then
 // number, integer or skip for each property in the header's order, then end_record; end_body after the last.
@@ -191,5 +191,36 @@ class BinaryBody {
   const Element* element_ = nullptr;
   std::uint64_t index_ = 0;
 };
+
+/// The count that begins a list.
+template <class Body>
+std::uint64_t list_count(Body& body, const Property& list) {
+  const std::int64_t count = body.integer(list.count_type.value_or(Type::uint8));
+  if (count < 0) body.fail(fmt::format("the list `{}` has {} entries, expected 0 or more", list.name, count));
+  return std::uint64_t(count);
+}
+
+template <class Body>
+void skip(Body& body, const Property& property) {
+  body.skip(property.type, property.count_type ? list_count(body, property) : 1);
+}
+
+/// All records of an element; of one without properties there are none in the file.
+template <class Body>
+void skip_element(Body& body, const Element& element) {
+  if (element.properties.empty()) return;
+  for (std::uint64_t i = 0; i < element.count; ++i) {
+    body.begin_record(element, i);
+    for (const Property& property : element.properties) skip(body, property);
+    body.end_record();
+  }
+}
+
+/// Index of the property named so among an element's; -1: none.
+inline int find_property(const Element& element, std::string_view name) {
+  const auto& all = element.properties;
+  const auto found = std::find_if(all.begin(), all.end(), [&](const Property& p) { return p.name == name; });
+  return found == all.end() ? -1 : int(found - all.begin());
+}
 
 }  // namespace laterna::ply

@@ -1,4 +1,4 @@
-// The header of a PLY file. Only sim/ply.cpp needs it.
+// The header of a PLY file. Only sim/ply.cpp and sim/formats/point_cloud.cpp need it.
 #pragma once
 
 #include <cstddef>

@@ -92,22 +92,26 @@ std::vector<CloudPoint> true_cloud(const fs::path& folder, const CloudOptions& o
   return points;
 }
 
+void append_cloud(const DecodedMap& map, const Device& camera, const Device& projector,
+                  std::vector<CloudPoint>& points) {
+  const Rays eye(camera), source(projector);
+  for (int row = 0; row < map.height; ++row)
+    for (int column = 0; column < map.width; ++column) {
+      if (!map.valid(column, row)) continue;
+      const glm::dvec2 camera_px(column, row), projector_px(map.u_px(column, row), map.v_px(column, row));
+      const auto a = eye.direction(camera_px), b = source.direction(projector_px);
+      Midpoint m;
+      if (!a || !b || !midpoint(eye.origin(), *a, source.origin(), *b, m)) continue;
+      if (m.along_a > 0 && m.along_b > 0 && m.gap_m < largest_gap * m.along_a)
+        points.push_back({m.x, projector_px, camera_px});
+    }
+}
+
 std::vector<CloudPoint> decoded_cloud(const fs::path& folder, const Rig& rig, const CloudOptions& options) {
   std::vector<CloudPoint> points;
-  for (const CaptureSequence& sequence : sequences_of(folder, options)) {
-    const Rays eye(device_called(rig, sequence.camera)), source(device_called(rig, sequence.projector));
-    const DecodedMap map = decode_sequence(folder, sequence, {}).map;
-    for (int row = 0; row < map.height; ++row)
-      for (int column = 0; column < map.width; ++column) {
-        if (!map.valid(column, row)) continue;
-        const glm::dvec2 camera_px(column, row), projector_px(map.u_px(column, row), map.v_px(column, row));
-        const auto a = eye.direction(camera_px), b = source.direction(projector_px);
-        Midpoint m;
-        if (!a || !b || !midpoint(eye.origin(), *a, source.origin(), *b, m)) continue;
-        if (m.along_a > 0 && m.along_b > 0 && m.gap_m < largest_gap * m.along_a)
-          points.push_back({m.x, projector_px, camera_px});
-      }
-  }
+  for (const CaptureSequence& sequence : sequences_of(folder, options))
+    append_cloud(decode_sequence(folder, sequence, {}).map, device_called(rig, sequence.camera),
+                 device_called(rig, sequence.projector), points);
   return points;
 }
 

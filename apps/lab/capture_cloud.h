@@ -1,6 +1,7 @@
 // The surface that a capture saw, as points in the world.
 #pragma once
 
+#include "calib/decoded_map.h"
 #include "sim/formats/point_cloud.h"
 #include "sim/formats/rig.h"
 
@@ -18,9 +19,12 @@ struct CloudOptions {
 /// a sequence has none.
 std::vector<CloudPoint> true_cloud(const std::filesystem::path& folder, const CloudOptions& options);
 
-/// Decodes the folder's pictures and intersects rays: the point halfway between the camera's ray and the
-/// projector's, where they pass each other within 1 % of its distance, in front of both. Devices are looked
-/// up in `rig` by name.
+/// Adds what a camera has decoded, its rays intersected with the projector's: the point halfway between the
+/// camera's ray and the projector's, where they pass each other within 1 % of its distance, in front of both.
+void append_cloud(const DecodedMap& map, const Device& camera, const Device& projector,
+                  std::vector<CloudPoint>& points);
+
+/// Decodes the folder's pictures and does so. Devices are looked up in `rig` by name.
 std::vector<CloudPoint> decoded_cloud(const std::filesystem::path& folder, const Rig& rig,
                                       const CloudOptions& options);
 

@@ -3,6 +3,7 @@
 #include "apps/lab/bop_export.h"
 #include "apps/lab/capture_cloud.h"
 #include "apps/lab/capture_export.h"
+#include "apps/lab/cloud_table.h"
 #include "sim/error.h"
 #include "sim/formats/rig_file.h"
 #include "sim/safe_write.h"
@@ -18,6 +19,7 @@ struct Words {
   std::string from, to, as, from_format, camera_size, projector_size, rig;
   double unit_m = 1, to_unit_m = 1;
   bool decoded = false;
+  std::size_t most_points = 2000;
   CaptureExport capture;
 };
 
@@ -37,6 +39,9 @@ std::string formats_text() {
          "  bop                          a scene of BOP's: cameras, poses, depth, gray, masks and models\n"
          "  ply            .ply          the points that were lit: of the truth, or --decoded and "
          "intersected\n"
+         "Of a cloud of points (PLY) with camera_u and camera_v, projector_u and projector_v, or both:\n"
+         "  csv            .csv          up to --points of them, as `laterna calibrate` reads them: one "
+         "pose\n"
          "Of a scene's folder of BOP's, into a new folder:\n"
          "  exr                          depth and objects as layers, the camera in the header";
 }
@@ -61,6 +66,16 @@ void convert_cloud(const Words& words) {
                           read_rig(words.rig.empty() ? words.from : words.rig, read_options(words)), options)
           : true_cloud(words.from, options);
   write_file(words.to, std::string_view(point_cloud_ply(points)));
+}
+
+void convert_points(const Words& words, Notes& notes) {
+  if (!(words.unit_m > 0 && words.to_unit_m > 0)) throw InputError("--unit: expected metres above 0");
+  PointCloud cloud = read_point_cloud(std::filesystem::path(words.from));
+  for (CloudPoint& p : cloud.points) p.x_world *= words.unit_m / words.to_unit_m;
+  if (cloud.points.size() > words.most_points)
+    notes.push_back(fmt::format("{} of {} points are kept, evenly spread (--points)", words.most_points,
+                                cloud.points.size()));
+  write_file(words.to, std::string_view(cloud_table(cloud, words.most_points, words.from)));
 }
 
 // A capture into a scene of BOP's, or such a scene into layers.
@@ -91,6 +106,9 @@ Notes convert(const Words& words, const Common& common) {
   if (std::filesystem::exists(words.to)) throw InputError(words.to + ": is there already");
   if (words.as == "ply" || (words.as.empty() && words.to.ends_with(".ply"))) {
     convert_cloud(words);
+  } else if (is_ply_file(words.from) &&
+             (words.as == "csv" || (words.as.empty() && words.to.ends_with(".csv")))) {
+    convert_points(words, notes);
   } else if (wants_bop(words)) {
     convert_bop(words, notes);
   } else if (wants_pictures(words)) {
@@ -111,7 +129,8 @@ void add_convert(CLI::App& app, Common& common) {
   auto words = std::make_shared<Words>();
   CLI::App* command =
       add_command(app, "convert", "laterna convert scene.toml calibration.yml --as scan3d", formats_text());
-  command->add_option("FROM", words->from, "Calibration, scene or capture folder")->required();
+  command->add_option("FROM", words->from, "Calibration, scene, capture folder or cloud of points")
+      ->required();
   command->add_option("TO", words->to, "New file or folder")->required();
   command->add_option("--as", words->as, "TO's format, by its name above (default: by its ending)");
   command->add_option("--from", words->from_format, "FROM's format (default: by its content)");
@@ -131,6 +150,9 @@ void add_convert(CLI::App& app, Common& common) {
   command->add_flag("--decoded", words->decoded, "ply: points from decoded pictures, not from the truth");
   command->add_option("--rig", words->rig,
                       "ply --decoded: the calibration to intersect with (default: the scene)");
+  command->add_option("--points", words->most_points, "csv: how many points are kept at most")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
   command->callback([words, &common] {
     const Notes notes = convert(*words, common);
     if (common.json) {

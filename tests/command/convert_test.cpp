@@ -134,6 +134,35 @@ TEST(Convert, GrayCodesInTheOrderOfOtherTools) {
   EXPECT_FALSE(fs::exists(scratch / "slstudio" / "frameSeq_00" / "frameSeq_13.bmp"));
 }
 
+TEST(Convert, ACloudIsATableToCalibrateFrom) {
+  const ScratchFolder scratch;
+  ASSERT_EQ(laterna("capture " + relief + " -o capture", scratch.path()).exit_code, 0);
+  ASSERT_EQ(laterna("convert capture cloud.ply", scratch.path()).exit_code, 0);
+  const auto result = laterna("convert cloud.ply points.csv --points 500", scratch.path());
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("500 of"));
+  const Rig truth = read_rig(relief);
+  const auto size = [](const Device& d) {
+    return fmt::format("{}x{}", d.intrinsics.size.x, d.intrinsics.size.y);
+  };
+  const auto solved =
+      laterna(fmt::format("calibrate points.csv --camera-size {} --projector-size {} --lens pinhole "
+                          "-o found.json --json",
+                          size(truth.cameras.at(0)), size(truth.projectors.at(0))),
+              scratch.path());
+  ASSERT_TRUE(fs::exists(scratch / "found.json")) << solved.err;
+  const Rig found = read_rig(scratch / "found.json");
+  // The table's pixels are in single precision: 6e-5 px of a thousand.
+  EXPECT_NEAR(found.projectors.at(0).intrinsics.fx, truth.projectors.at(0).intrinsics.fx, 0.01);
+  EXPECT_NEAR(found.cameras.at(0).intrinsics.fx, truth.cameras.at(0).intrinsics.fx, 0.01);
+  testing::write_text(scratch / "plain.ply",
+                      "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
+                      "property float z\nend_header\n1 2 3\n");
+  const auto plain = laterna("convert plain.ply plain.csv", scratch.path());
+  EXPECT_EQ(plain.exit_code, 2);
+  EXPECT_THAT(plain.err, HasSubstr("plain.ply: its points have no pixels to calibrate from"));
+}
+
 const Image<float>& layer(const ExrLayers& layers, const std::string& name) {
   const auto found = std::find(layers.names.begin(), layers.names.end(), name);
   EXPECT_NE(found, layers.names.end()) << name;

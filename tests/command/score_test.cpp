@@ -1,4 +1,5 @@
 // `laterna score` as a person would call it.
+#include "sim/formats/point_cloud.h"
 #include "tests/command/run_command.h"
 #include "tests/command/small_scene.h"
 #include "tests/testing.h"
@@ -108,6 +109,47 @@ TEST(ScoreCommand, APictureThatIsMissingIsADroppedFrame) {
   std::filesystem::remove(scratch.path() / "capture/cam/left/07.png");
   const json scored = score_of("capture left.json", scratch, 0);  // the calibration itself is right
   EXPECT_EQ(scored["suspects"][0]["name"], "dropped_frame");
+}
+
+TEST(ScoreCommand, ACloudOfPointsKeepsTheContract) {
+  const ScratchFolder scratch;
+  write_text(scratch / "small.toml", small);
+  ASSERT_EQ(laterna("capture small.toml -o capture", scratch.path()).exit_code, 0);
+  ASSERT_EQ(laterna("convert capture cloud.ply --decoded", scratch.path()).exit_code, 0);
+  for (const char* truth : {"small.toml", "capture"}) {
+    const json right = score_of(fmt::format("{} cloud.ply", truth), scratch, 0);
+    EXPECT_EQ(right["status"], "ok");
+    EXPECT_TRUE(right["volume_error_px"].is_null());
+    for (const char* key : {"surface_error_px", "surface_error_mm", "point_error_mm", "median_mm", "p95_mm"})
+      EXPECT_GT(right[key].get<double>(), 0) << key;
+    EXPECT_TRUE(right["outliers"].is_number_unsigned());
+    EXPECT_EQ(right["suspects"], json::array());
+  }
+  // As a scanner writes it: text, millimetres, colours, no pixels.
+  const PointCloud cloud = read_point_cloud(scratch / "cloud.ply");
+  std::string text = fmt::format(
+      "ply\nformat ascii 1.0\nelement vertex {}\nproperty float x\nproperty float y\nproperty float z\n"
+      "property uchar red\nend_header\n",
+      cloud.points.size());
+  for (const CloudPoint& p : cloud.points)
+    text += fmt::format("{} {} {} 7\n", 1000 * p.x_world.x, 1000 * p.x_world.y, 1000 * p.x_world.z);
+  write_text(scratch / "scan.ply", text);
+  const json scored = score_of("small.toml scan.ply", scratch, 4);
+  EXPECT_EQ(scored["status"], "weak");
+  EXPECT_TRUE(scored["surface_error_px"].is_null() && scored["point_error_mm"].is_null());
+  EXPECT_EQ(scored["outliers"], cloud.points.size());
+  EXPECT_EQ(scored["suspects"][0]["name"], "unit_scale");
+  EXPECT_THAT(laterna("score small.toml scan.ply", scratch.path()).out, HasSubstr("give lengths in metres"));
+  const auto refused = laterna("score small.toml scan.ply --align world", scratch.path());
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("the cloud's points have no pixels"));
+  write_text(scratch / "bad.ply", text.substr(0, text.size() / 2));
+  const auto bad = laterna("score small.toml bad.ply --json", scratch.path());
+  EXPECT_EQ(bad.exit_code, 2);
+  EXPECT_EQ(bad.out, "");
+  ASSERT_EQ(laterna("calibrate capture -o left.json", scratch.path()).exit_code, 0);
+  EXPECT_THAT(laterna("score small.toml left.json --frame cam", scratch.path()).err,
+              HasSubstr("--frame is for a cloud of points"));
 }
 
 }  // namespace

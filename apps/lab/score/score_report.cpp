@@ -15,10 +15,6 @@ using Json = nlohmann::json;
 
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
-std::string alignment_word(const Alignment& a) {
-  return a.world && a.scale ? "world+scale" : a.world ? "world" : a.scale ? "scale" : "none";
-}
-
 Json entry(const ProjectorScore& s) {
   Json suspects = Json::array();
   for (const Suspect& suspect : s.suspects)

@@ -107,6 +107,10 @@ Alignment alignment_of(const std::string& word) {
   throw InputError(fmt::format("--align: found \"{}\", expected none, world, scale or world+scale", word));
 }
 
+std::string alignment_word(const Alignment& a) {
+  return a.world && a.scale ? "world+scale" : a.world ? "world" : a.scale ? "scale" : "none";
+}
+
 std::optional<Device> align(const ScoreRig& result, const ScoreRig& truth, const Alignment& alignment) {
   Device projector = result.projector;
   double scale = 1;

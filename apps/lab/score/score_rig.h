@@ -43,6 +43,7 @@ struct Alignment {
 
 /// "none", "world", "scale" or "world+scale". Throws InputError for another word.
 Alignment alignment_of(const std::string& word);
+std::string alignment_word(const Alignment& alignment);
 
 /// The result's projector in the truth's world. world: projector_from_world = projector_from_camera (result)
 /// · camera_from_world (truth); where the result has no camera its world is taken for the camera's frame.
