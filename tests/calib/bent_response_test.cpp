@@ -26,5 +26,13 @@ TEST(BentResponse, GammaOfDisplays) {
   EXPECT_LT(bent_response_shift_px(rest, 8, 64), 0.002);
 }
 
+// The same by the exponent itself; encoded pictures, whose exponent is below 1, shift places as well.
+TEST(ResponseShift, IsThatOfItsExponent) {
+  EXPECT_NEAR(response_shift_px(2.2, 3, 64), 2.1, 0.1);
+  EXPECT_NEAR(response_shift_px(2, 3, 6.283185307179586), 0.17819, 1e-4);  // the square by hand
+  EXPECT_LT(response_shift_px(1, 3, 64), 1e-9);
+  EXPECT_GT(response_shift_px(1 / 2.2, 3, 64), 0.5);
+}
+
 }  // namespace
 }  // namespace laterna

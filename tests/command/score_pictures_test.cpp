@@ -61,6 +61,23 @@ sensor = {{ noise_sigma_dn = 0.7 }}
 
 const std::string gray = "kind = \"gray\"", three_steps = "kind = \"phase\"\nsteps = 3";
 
+// What OpenCV makes of the projector's pixels of points in the camera's frame, as its stereo samples save it.
+void write_stereo(const fs::path& path, const cv::Mat& camera,
+                  const std::vector<std::vector<cv::Point3f>>& points,
+                  const std::vector<std::vector<cv::Point2f>>& pixels) {
+  cv::Mat k = (cv::Mat_<double>(3, 3) << 240, 0, 79.5, 0, 240, 49.5, 0, 0, 1);
+  cv::Mat distortion = cv::Mat::zeros(5, 1, CV_64F), rotation;
+  std::vector<cv::Mat> rotations, translations;
+  cv::calibrateCamera(points, pixels, {160, 100}, k, distortion, rotations, translations,
+                      cv::CALIB_USE_INTRINSIC_GUESS | cv::CALIB_FIX_K1 | cv::CALIB_FIX_K2 | cv::CALIB_FIX_K3 |
+                          cv::CALIB_ZERO_TANGENT_DIST,
+                      {cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 200, 1e-12});
+  cv::Rodrigues(rotations[0], rotation);
+  cv::FileStorage file(path.string(), cv::FileStorage::WRITE);
+  file << "M1" << camera << "D1" << cv::Mat::zeros(5, 1, CV_64F) << "M2" << k << "D2" << distortion << "R"
+       << rotation << "T" << translations[0];
+}
+
 // A capture, and the two calibrations of it: whose score names whom.
 class SpoiltPictures : public ::testing::Test {
  protected:
@@ -112,8 +129,7 @@ class SpoiltPictures : public ::testing::Test {
            (suspects.empty() ? "" : suspects[0]["name"].get<std::string>());
   }
 
-  // The known surface in the camera's frame and the decoded pixels, for one view of a "target" that is not
-  // flat.
+  // The known surface in the camera's frame and the decoded pixels; false where there are none.
   bool calibrate_with_opencv() {
     fs::remove_all(scratch_ / "decoded");
     EXPECT_EQ(run("decode capture -o decoded").exit_code, 0);
@@ -137,18 +153,8 @@ class SpoiltPictures : public ::testing::Test {
       pixels[0].emplace_back(u[i], v[i]);
     }
     if (pixels[0].empty()) return false;
-    cv::Mat k = (cv::Mat_<double>(3, 3) << 240, 0, 79.5, 0, 240, 49.5, 0, 0, 1);
-    cv::Mat distortion = cv::Mat::zeros(5, 1, CV_64F), rotation;
-    std::vector<cv::Mat> rotations, translations;
-    cv::calibrateCamera(points, pixels, {160, 100}, k, distortion, rotations, translations,
-                        cv::CALIB_USE_INTRINSIC_GUESS | cv::CALIB_FIX_K1 | cv::CALIB_FIX_K2 |
-                            cv::CALIB_FIX_K3 | cv::CALIB_ZERO_TANGENT_DIST,
-                        {cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 200, 1e-12});
-    cv::Rodrigues(rotations[0], rotation);
-    cv::FileStorage file((scratch_ / "stereo.yml").string(), cv::FileStorage::WRITE);
-    file << "M1" << (cv::Mat_<double>(3, 3) << focal, 0, cx, 0, focal, cy, 0, 0, 1) << "D1"
-         << cv::Mat::zeros(5, 1, CV_64F) << "M2" << k << "D2" << distortion << "R" << rotation << "T"
-         << translations[0];
+    cv::Mat camera = (cv::Mat_<double>(3, 3) << focal, 0, cx, 0, focal, cy, 0, 0, 1);
+    write_stereo(scratch_ / "stereo.yml", camera, points, pixels);
     return true;
   }
 
@@ -157,23 +163,27 @@ class SpoiltPictures : public ::testing::Test {
 };
 
 using ::testing::Each;
+using ::testing::ElementsAre;
 using ::testing::EndsWith;
 using ::testing::Not;
 using ::testing::StartsWith;
 
+// Not ok, and the suspect in front.
+auto blames(const std::string& suspect) { return AllOf(Not(StartsWith("ok")), EndsWith(" " + suspect)); }
+
 TEST_F(SpoiltPictures, RightOnesNameNobody) {
   capture(three_steps);
-  EXPECT_THAT(said(), Each("ok "));
+  EXPECT_THAT(said(), ElementsAre("ok ", "ok "));
 }
 
 TEST_F(SpoiltPictures, GammaIsNamedOfThreeSteps) {
   capture(three_steps, true);
-  EXPECT_THAT(said(), Each("weak gamma"));
+  EXPECT_THAT(said(), ElementsAre("weak gamma", "weak gamma"));
 }
 
 TEST_F(SpoiltPictures, GammaDoesNoHarmToBlackAndWhite) {
   capture(gray, true);
-  EXPECT_THAT(said(), Each("ok "));
+  EXPECT_THAT(said(), ElementsAre("ok ", "ok "));
 }
 
 TEST_F(SpoiltPictures, AFrameIsDroppedAndLaterOnesMoveUp) {
@@ -181,7 +191,7 @@ TEST_F(SpoiltPictures, AFrameIsDroppedAndLaterOnesMoveUp) {
   std::vector<int> order(count());
   for (int k = 0; k < int(count()); ++k) order[k] = k < 7 ? k : std::min(k + 1, int(count()) - 1);
   reorder(order);
-  EXPECT_THAT(said(), Each(AllOf(Not(StartsWith("ok")), EndsWith(" dropped_frame"))));
+  EXPECT_THAT(said(), Each(blames("dropped_frame")));  // nothing can be decoded
 }
 
 TEST_F(SpoiltPictures, TwoFramesAreExchanged) {
@@ -190,7 +200,7 @@ TEST_F(SpoiltPictures, TwoFramesAreExchanged) {
   std::iota(order.begin(), order.end(), 0);
   std::swap(order[0], order[1]);
   reorder(order);
-  EXPECT_THAT(said(), Each(AllOf(Not(StartsWith("ok")), EndsWith(" dropped_frame"))));
+  EXPECT_THAT(said(), ElementsAre(blames("dropped_frame"), blames("dropped_frame")));
 }
 
 TEST_F(SpoiltPictures, RowsAreShownBeforeColumns) {
@@ -199,7 +209,7 @@ TEST_F(SpoiltPictures, RowsAreShownBeforeColumns) {
   std::iota(order.begin(), order.end(), 0);
   std::rotate(order.begin(), order.begin() + 16, order.end() - 2);  // 8 bits of columns, 7 of rows
   reorder(order);
-  EXPECT_THAT(said(), Each(AllOf(Not(StartsWith("ok")), EndsWith(" axes_exchanged"))));
+  EXPECT_THAT(said(), ElementsAre(blames("axes_exchanged"), blames("axes_exchanged")));
 }
 
 TEST_F(SpoiltPictures, TheDriverMirrorsThem) {
@@ -208,7 +218,7 @@ TEST_F(SpoiltPictures, TheDriverMirrorsThem) {
     for (int y = 0; y < height; ++y)
       std::reverse(values.begin() + y * width, values.begin() + (y + 1) * width);
   });
-  EXPECT_THAT(said(), Each(AllOf(Not(StartsWith("ok")), EndsWith(" y_flipped"))));
+  EXPECT_THAT(said(), ElementsAre(blames("y_flipped"), blames("y_flipped")));
 }
 
 }  // namespace
