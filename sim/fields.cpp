@@ -40,6 +40,9 @@ int edit_distance(std::string_view a, std::string_view b) {
 
 std::string nearest_key(std::string_view key, std::span<const std::string> known) {
   key = key.substr(0, 64);  // an absurdly long key is near to nothing anyway
+  const auto begins_so = [&](const std::string& name) { return key.size() > 2 && name.starts_with(key); };
+  if (const auto whole = std::find_if(known.begin(), known.end(), begins_so); whole != known.end())
+    return *whole;
   const auto nearer = [&](const std::string& a, const std::string& b) {
     return edit_distance(key, a) < edit_distance(key, b);
   };

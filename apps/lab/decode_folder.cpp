@@ -9,9 +9,28 @@
 
 namespace laterna {
 
+namespace {
+
+/// Throws where a size is asked for that is not the manifest's.
+CaptureManifest manifest_of(const std::filesystem::path& folder,
+                            const std::optional<PatternSequence>& patterns) {
+  CaptureManifest manifest = read_manifest(folder);
+  for (const CaptureSequence& sequence : manifest.sequences)
+    if (patterns && patterns->projector_size != sequence.projector_size)
+      throw InputError(fmt::format(
+          "--projector-size: found {}x{}, but {} says {}x{}, expected that or no such option",
+          patterns->projector_size.x, patterns->projector_size.y, (folder / "manifest.json").string(),
+          sequence.projector_size.x, sequence.projector_size.y));
+  return manifest;
+}
+
+}  // namespace
+
 CaptureManifest manifest_or_pictures(const std::filesystem::path& folder,
                                      const std::optional<PatternSequence>& patterns) {
-  if (std::filesystem::exists(folder / "manifest.json")) return read_manifest(folder);
+  if (!std::filesystem::is_directory(folder))
+    throw InputError(folder.string() + ": no such folder, expected one of pictures");
+  if (std::filesystem::exists(folder / "manifest.json")) return manifest_of(folder, patterns);
   if (!patterns) {
     throw InputError(fmt::format(
         "{}: no manifest.json, expected a capture folder, or --projector-size for a folder of pictures",

@@ -151,7 +151,7 @@ void write_results(const Scene& scene, const std::string& scene_name, const Trac
                   picture_camera(scene.cameras[k.view->camera].device));
   }
   for (const Kept& k : kept) out.files.push_back("decoded_" + stem_of(scene, *k.view) + ".exr");
-  write_file(root / "estimate.json", estimates_text(estimates));
+  write_file(root / "estimate.json", estimates_text(estimates, scene));
   write_file(root / "result.json", trial_json(scene, out.outcomes, out.times).dump(2) + "\n");
   write_file(root / "figures.json", figures_json(scene, traced, kept, out.outcomes).dump() + "\n");
   write_file(root / "live.json", live_json(scene, traced, scene_name).dump() + "\n");

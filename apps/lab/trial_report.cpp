@@ -2,6 +2,7 @@
 
 #include "apps/lab/json_number.h"
 #include "apps/lab/matrices.h"
+#include "sim/believed.h"
 #include "sim/error.h"
 #include "sim/plain_name.h"
 
@@ -68,6 +69,18 @@ std::string matrix_lines(const Device& estimate, const Device* truth) {
   return text;
 }
 
+Json device_json(const Device& d) {
+  const Intrinsics& k = d.intrinsics;
+  return {{"name", d.name},
+          {"size", {k.size.x, k.size.y}},
+          {"fx", k.fx},
+          {"fy", k.fy},
+          {"cx", k.cx},
+          {"cy", k.cy},
+          {"lens", {{"model", d.lens.model}, {"parameters", d.lens.parameters}}},
+          {"device_from_world", rows_of(d.device_from_world)}};
+}
+
 Device device_of(const Json& json) {
   Device device;
   const auto size = json.at("size").get<std::array<int, 2>>();
@@ -119,8 +132,16 @@ Json estimate_json(const std::string& name, const SolveResult& solve) {
           {"predicted_volume_px", camera_share_json(solve)}};
 }
 
-std::string estimates_text(const std::vector<Json>& estimates) {
-  return Json{{"format", "laterna-estimate"}, {"version", 1}, {"projectors", estimates}}.dump(2) + "\n";
+std::string estimates_text(const std::vector<Json>& estimates, const Scene& believed) {
+  Json cameras = Json::array();
+  for (const Camera& camera : believed.cameras)
+    cameras.push_back(device_json(believed.believe_truth ? camera.device : believed_device(camera)));
+  return Json{{"format", "laterna-estimate"},
+              {"version", 1},
+              {"projectors", estimates},
+              {"given_cameras", cameras}}
+             .dump(2) +
+         "\n";
 }
 
 std::vector<StoredEstimate> read_estimates(const std::filesystem::path& file) {

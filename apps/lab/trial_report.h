@@ -23,9 +23,10 @@ nlohmann::json trial_json(const Scene& scene, const std::vector<ProjectorOutcome
 /// two parts, whose squares add up: "predicted_volume_px": {"from_noise", "from_camera"}.
 nlohmann::json estimate_json(const std::string& name, const SolveResult& solve);
 
-/// {"format": "laterna-estimate", "version": 1, "projectors": [estimate_json...]}: what `laterna calibrate`
-/// writes.
-std::string estimates_text(const std::vector<nlohmann::json>& estimates);
+/// {"format": "laterna-estimate", "version": 1, "projectors": [estimate_json...], "given_cameras":
+/// [device...]}: what `laterna calibrate` writes. The cameras are as they were believed (sim/believed.h):
+/// formats that hold a camera beside a projector need one.
+std::string estimates_text(const std::vector<nlohmann::json>& estimates, const Scene& believed);
 
 /// An estimate that was read back.
 struct StoredEstimate {

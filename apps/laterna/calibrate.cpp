@@ -80,7 +80,7 @@ int run(const Words& words, const Common& common) {
     fmt::print("  verdict: {}{}{}\n", status_word(e.solve.status), e.solve.reason.empty() ? "" : ": ",
                e.solve.reason);
   }
-  const std::string text = estimates_text(entries);
+  const std::string text = estimates_text(entries, scene);
   if (!words.out.empty()) write_file(words.out, text);
   if (common.json) fmt::print("{}", text);
   if (!words.out.empty() && !common.json) fmt::print("open {}\n", words.out);

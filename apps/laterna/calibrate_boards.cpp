@@ -1,7 +1,7 @@
 #include "apps/laterna/calibrate_boards.h"
 
-#include "apps/lab/board_pictures.h"
 #include "apps/lab/board_json.h"
+#include "apps/lab/board_pictures.h"
 #include "apps/lab/board_text.h"
 #include "apps/lab/known_intrinsics.h"
 #include "calib/boards/correspondence_csv.h"

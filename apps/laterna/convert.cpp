@@ -27,7 +27,8 @@ std::string formats_text() {
   std::string text =
       "A calibration of one kind as another, a capture folder as the pictures that other calibrators read, "
       "or as a "
-      "cloud of\npoints. FROM is recognised by its content, TO by its ending or --as. Calibrations:\n";
+      "cloud of\npoints. FROM is recognised by its ending and content, TO by its ending or --as. "
+      "Calibrations:\n";
   for (const RigFormat& format : rig_formats())
     text += fmt::format("  {:<14} {:<13} {}\n", format.name, format.ending, format.sentence);
   return text +
@@ -103,7 +104,8 @@ bool wants_pictures(const Words& words) {
 
 Notes convert(const Words& words, const Common& common) {
   Notes notes;
-  if (std::filesystem::exists(words.to)) throw InputError(words.to + ": is there already");
+  if (std::filesystem::exists(words.to))
+    throw InputError(words.to + ": is there already, expected a new name");
   if (words.as == "ply" || (words.as.empty() && words.to.ends_with(".ply"))) {
     convert_cloud(words);
   } else if (is_ply_file(words.from) &&

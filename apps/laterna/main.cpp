@@ -7,9 +7,14 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <unistd.h>
+
 #include <algorithm>
+#include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <filesystem>
+#include <system_error>
 
 namespace laterna {
 
@@ -38,6 +43,9 @@ void check_output(const std::string& out) {
   const auto parent = std::filesystem::absolute(out).parent_path();
   if (!std::filesystem::is_directory(parent))
     throw InputError(fmt::format("{}: no such folder, expected one to write into", parent.string()));
+  if (::access(parent.c_str(), W_OK) != 0)
+    throw InputError(fmt::format("{}: {}, expected a folder to write into", parent.string(),
+                                 std::generic_category().message(errno)));
 }
 
 namespace {
@@ -97,6 +105,7 @@ int run(int argc, char** argv) {
 }  // namespace laterna
 
 int main(int argc, char** argv) {
+  std::signal(SIGXFSZ, SIG_IGN);  // beyond `ulimit -f` a write then fails, and the command says so
   try {
     return laterna::run(argc, argv);
   } catch (const laterna::InputError& error) {

@@ -111,7 +111,7 @@ bool is_laterna_json(const Tree& tree) {
 Rig parse_laterna_json(const std::string& text, const std::string& file_name) {
   const Tree tree = json_tree(text, file_name);
   const Place file{&tree, file_name};
-  return {devices_at(file, "cameras"), devices_at(file, "projectors")};
+  return {devices_at(file, "cameras"), devices_at(file, "projectors"), devices_at(file, "given_cameras")};
 }
 
 std::string laterna_json_text(const Rig& rig) {

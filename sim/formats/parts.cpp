@@ -116,7 +116,7 @@ Rig relative_to(const Rig& rig, const Device& reference, const char* format, Not
 }
 
 Rig scaled(Rig rig, double factor) {
-  for (auto* devices : {&rig.cameras, &rig.projectors})
+  for (auto* devices : {&rig.cameras, &rig.projectors, &rig.given_cameras})
     for (Device& device : *devices) device.device_from_world.translation *= factor;
   return rig;
 }

@@ -12,6 +12,9 @@ namespace laterna {
 /// be the scene's). Light planes are not part of any such file and stand at their defaults.
 struct Rig {
   std::vector<Device> cameras, projectors;
+  /// Cameras that the projectors were solved from, which the file did not solve for: what formats of a pair
+  /// take where there is no other.
+  std::vector<Device> given_cameras{};
 };
 
 }  // namespace laterna

@@ -29,10 +29,11 @@ const RigFormat& format_called(const std::string& name) {
   throw InputError(fmt::format("no format is called \"{}\", expected one of {}", name, names_of_formats()));
 }
 
-// The tree of a YAML, XML or JSON file; null for a folder and for endings of other languages.
+// The tree of a YAML, XML or JSON file, by its ending or without one; null for a folder and for endings of
+// other languages.
 Tree tree_at(const fs::path& path) {
-  static const std::set<std::string> endings = {".yml", ".yaml", ".xml", ".json", ".gltf"};
-  if (!endings.contains(path.extension().string())) return nullptr;
+  static const std::set<std::string> endings = {"", ".yml", ".yaml", ".xml", ".json", ".gltf"};
+  if (!endings.contains(path.extension().string()) || fs::is_directory(path)) return nullptr;
   return any_tree(read_text(path, most_tree_bytes), path.string());
 }
 
@@ -74,6 +75,15 @@ const RigFormat& format_to_write(const fs::path& path, const std::string& name) 
                                names_of_formats()));
 }
 
+/// With the cameras that the projectors were solved from, where the format needs one.
+Rig rig_for(const RigFormat& format, Rig rig, Notes& notes) {
+  if (!format.is_pair || !rig.cameras.empty()) return rig;
+  rig.cameras = rig.given_cameras;
+  for (const Device& camera : rig.cameras)
+    notes.push_back(fmt::format("camera \"{}\" was given, not solved for", camera.name));
+  return rig;
+}
+
 }  // namespace
 
 Rig read_rig(const fs::path& path, const RigReadOptions& options) {
@@ -99,7 +109,11 @@ std::vector<RigText> rig_texts(const Rig& rig, const fs::path& path, const std::
   if (format.fixes_unit && unit_m != 1)
     throw InputError(fmt::format("{} fixes its unit of length, expected no other", format.name));
   check_rig(rig);
-  return format.write(scaled(rig, 1 / unit_m), notes);
+  std::vector<RigText> texts = format.write(scaled(rig_for(format, rig, notes), 1 / unit_m), notes);
+  if (*format.ending && !path.has_extension() && texts.size() == 1 && texts[0].name.empty())
+    throw InputError(fmt::format("{}: {} is known by its ending, expected a name that ends in {}",
+                                 path.string(), format.name, format.ending));
+  return texts;
 }
 
 void write_rig(const fs::path& path, const std::vector<RigText>& texts) {

@@ -34,6 +34,8 @@ struct RigFormat {
   bool (*is)(const std::filesystem::path& path, const Tree& tree);  ///< tree: null where the file is none
   Rig (*read)(const std::filesystem::path& path, const RigReadOptions& options);
   std::vector<RigText> (*write)(const Rig& rig, Notes& notes);  ///< null: read only
+  bool is_pair =
+      false;  ///< holds one camera and one projector: a rig without cameras gives its given_cameras
 };
 
 /// All of them; of several that recognise a file the first counts, and of several with an ending the first is
@@ -48,7 +50,8 @@ std::span<const RigFormat> rig_formats();
 Rig read_rig(const std::filesystem::path& path, const RigReadOptions& options = {});
 
 /// The texts of a rig in a format, by name, or by the ending of `path` where `format` is empty; lengths in
-/// units of `unit_m` metres. What the format cannot hold is an InputError or a note.
+/// units of `unit_m` metres. What the format cannot hold is an InputError or a note, and so is a path without
+/// an ending for a file that is known by it.
 std::vector<RigText> rig_texts(const Rig& rig, const std::filesystem::path& path, const std::string& format,
                                double unit_m, Notes& notes);
 

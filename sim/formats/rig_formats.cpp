@@ -94,12 +94,13 @@ constexpr std::array formats = {
               ros_texts},
     RigFormat{"opencv", ".yml", "OpenCV's storage: lists Cameras and Projectors; reads the next four too",
               false, is_opencv, read_opencv, opencv_texts},
-    RigFormat{"scan3d", "", "scan3d-capture's calibration.yml", false, never, read_opencv, scan3d_texts},
+    RigFormat{"scan3d", "", "scan3d-capture's calibration.yml", false, never, read_opencv, scan3d_texts,
+              true},
     RigFormat{"procam", ".xml", "procam-calibration's calibration_result.xml", false, never, read_opencv,
-              procam_texts},
-    RigFormat{"slstudio", "", "SLStudio's calibration.xml", false, never, read_opencv, slstudio_texts},
+              procam_texts, true},
+    RigFormat{"slstudio", "", "SLStudio's calibration.xml", false, never, read_opencv, slstudio_texts, true},
     RigFormat{"opencv-stereo", "", "M1, D1, M2, D2, R, T of OpenCV's stereo samples", false, never,
-              read_opencv, stereo_texts},
+              read_opencv, stereo_texts, true},
 };
 
 }  // namespace

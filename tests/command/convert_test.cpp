@@ -3,6 +3,7 @@
 #include "sim/formats/rig_file.h"
 #include "sim/image_file.h"
 #include "tests/command/run_command.h"
+#include "tests/command/small_scene.h"
 #include "tests/testing.h"
 
 #include <fmt/format.h>
@@ -65,6 +66,23 @@ TEST(Convert, ACalibrationGoesThroughEveryFormatAndBack) {
   }
 }
 
+TEST(Convert, AnEstimateBringsTheCameraThatItWasSolvedFrom) {
+  const ScratchFolder scratch;
+  testing::write_text(scratch / "small.toml", testing::small);
+  ASSERT_EQ(laterna("roundtrip small.toml -o trip", scratch.path()).exit_code, 0);
+  for (const std::string name : {"procam", "scan3d", "slstudio", "opencv-stereo"}) {
+    const auto result =
+        laterna(fmt::format("convert trip/estimate.json {}.xml --as {}", name, name), scratch.path());
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_THAT(result.out, HasSubstr("camera \"cam\" was given, not solved for"));
+    const auto scored = laterna(fmt::format("score small.toml {}.xml", name), scratch.path());
+    EXPECT_EQ(scored.exit_code, 0) << scored.out << scored.err;
+  }
+  const auto alone = laterna("convert trip/estimate.json left.cameramodel", scratch.path());
+  EXPECT_EQ(alone.exit_code, 0) << alone.err;  // a file, of the projector
+  EXPECT_EQ(read_rig(scratch / "left.cameramodel").cameras.size(), 1u);
+}
+
 TEST(Convert, BadWordsAreOneSentence) {
   const ScratchFolder scratch;
   const auto error = [&](const std::string& words) {
@@ -76,6 +94,7 @@ TEST(Convert, BadWordsAreOneSentence) {
   EXPECT_THAT(error(relief + " a.abc"), HasSubstr("the ending tells no format"));
   EXPECT_THAT(error(relief + " a.yml --as nothing"), HasSubstr("no format is called \"nothing\""));
   EXPECT_THAT(error(relief + " a.yml --unit 0.001"), HasSubstr("fixes its unit"));
+  EXPECT_THAT(error(relief + " rig --as gltf"), HasSubstr("expected a name that ends in .gltf"));
   testing::write_text(scratch / "there.yml", "");
   EXPECT_THAT(error(relief + " there.yml"), HasSubstr("is there already"));
   EXPECT_EQ(testing::listing(scratch.path()), "there.yml ");

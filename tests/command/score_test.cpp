@@ -34,6 +34,7 @@ TEST(ScoreCommand, KeepsItsContract) {
     EXPECT_EQ(right["status"], "ok");
     for (const char* key : {"surface_error_px", "volume_error_px", "surface_error_mm"})
       EXPECT_GT(right[key].get<double>(), 0) << key;
+    EXPECT_EQ(right["camera_error_px"], nullptr);  // the camera was given
     EXPECT_EQ(right["suspects"], json::array());
   }
   json wrong = json::parse(testing::read_text(scratch / "left.json"));
@@ -64,6 +65,28 @@ TEST(ScoreCommand, MissingAndForeignFilesAreOneSentence) {
   const auto refused = laterna("score small.toml refused.json --json", scratch.path());
   EXPECT_EQ(refused.exit_code, 3);
   EXPECT_EQ(json::parse(refused.out)["status"], "refused");
+}
+
+TEST(ScoreCommand, AFileWithoutPlacementsIsNoResult) {
+  const ScratchFolder scratch;
+  write_text(scratch / "small.toml", small);
+  ASSERT_EQ(laterna("convert small.toml ros --as ros", scratch.path()).exit_code, 0);
+  const auto run = laterna("score small.toml ros", scratch.path());
+  EXPECT_EQ(run.exit_code, 2) << run.out;
+  EXPECT_THAT(run.err, HasSubstr("as in a file without placements"));
+}
+
+TEST(ScoreCommand, AWrongCameraIsNeverOk) {
+  const ScratchFolder scratch;
+  write_text(scratch / "small.toml", small);
+  const json right = score_of("small.toml small.toml", scratch, 0);
+  EXPECT_LT(right["camera_error_px"].get<double>(), 1e-9);  // roundings of some 400 px
+  std::string other = small;
+  other.replace(other.find("fov_x_deg = 42"), 14, "fov_x_deg = 45");
+  write_text(scratch / "other.toml", other);
+  const json wrong = score_of("small.toml other.toml", scratch, 4);
+  EXPECT_EQ(wrong["status"], "weak");
+  EXPECT_GT(wrong["camera_error_px"].get<double>(), 1);
 }
 
 TEST(ScoreCommand, UnsoundResultsAreOneSentence) {

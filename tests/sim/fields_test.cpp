@@ -82,6 +82,8 @@ TEST(Fields, NearestKey) {
   EXPECT_EQ(nearest_key("albedomap", known), "albedo_map");
   EXPECT_EQ(nearest_key(std::string(100000, 'x'), known).empty(), false);
   EXPECT_EQ(nearest_key("x", {}), "");
+  const std::vector<std::string> keys{"fx", "fov_x_deg"};
+  EXPECT_EQ(nearest_key("fov_x", keys), "fov_x_deg");  // what it begins, though fx is three letters away
 }
 
 TEST(FieldText, NumbersReadBackToTheSameBits) {

@@ -176,7 +176,9 @@ void run_shard(const DatasetFolder& folder, const DatasetSpec& spec, const Datas
     }
   } catch (const InputError& error) {
     keep_cost(run_folder, clock.cost(made));
-    throw InputError(fmt::format("{}; what is whole stays: --resume goes on", error.what()));
+    const std::string words = error.what();  // that a run stands there already says it itself
+    throw InputError(words +
+                     (words.find("--resume") == words.npos ? "; what is whole stays: --resume goes on" : ""));
   }
   outcome.made = made, outcome.cost = clock.cost(made);
   keep_cost(run_folder, outcome.cost);

@@ -1,5 +1,6 @@
 #include "apps/lab/score/score.h"
 
+#include "apps/lab/score/camera_score.h"
 #include "apps/lab/score/picture_suspects.h"
 #include "apps/lab/trial.h"
 #include "calib/verify.h"
@@ -177,7 +178,7 @@ std::vector<ProjectorScore> refused_scores(const ScoreTruth& truth, const Traced
   for (int p = 0; p < int(truth.scene.projectors.size()); ++p) {
     ProjectorScore s{truth.scene.projectors[p].device.name};
     s.alignment = alignment;
-    s.surface_error_px = s.volume_error_px = s.surface_error_mm = nan;
+    s.surface_error_px = s.volume_error_px = s.surface_error_mm = s.camera_error_px = nan;
     s.surface_bound_px = s.volume_bound_px = s.predicted_volume_px = nan;
     s.suspects = joined({}, evidence_of(truth, traced, predicted, p).suspects);
     scores.push_back(std::move(s));
@@ -200,23 +201,29 @@ ProjectorScore score_one(const ScoreTruth& truth, const Traced& traced, const Pr
   s.volume_error_px =
       rms_px(result, true_rig, alignment, image_grid(true_rig.projector, volume_depths(depths)));
   s.surface_error_mm = rms_mm(result, true_rig, alignment, surface);
+  s.camera_error_px = camera_error_px(result, true_rig, alignment, surface);
   const bool has_bound = !predicted.outcomes.empty() && !predicted.outcomes[p].solve.covariance.empty();
   s.surface_bound_px = has_bound ? predicted.outcomes[p].verification.surface.predicted_rms : nan;
   s.volume_bound_px = has_bound ? predicted.outcomes[p].verification.volume.predicted_rms : nan;
   // Where this scene's pictures are too bad for Laterna's own solve, their noise excuses nothing.
   const bool excuses = has_bound && predicted.outcomes[p].solve.status == Status::ok;
-  s.status = is_within(s.surface_error_px, excuses ? s.surface_bound_px : 0, options.tolerance_px) &&
-                     is_within(s.volume_error_px, excuses ? s.volume_bound_px : 0, options.tolerance_px)
-                 ? Status::ok
-                 : Status::weak;
+  const double surface_noise_px = excuses ? s.surface_bound_px : 0;
+  const bool projector_right =
+      is_within(s.surface_error_px, surface_noise_px, options.tolerance_px) &&
+      is_within(s.volume_error_px, excuses ? s.volume_bound_px : 0, options.tolerance_px);
+  const bool camera_wrong =
+      s.camera_error_px > 0 && !is_within(s.camera_error_px, surface_noise_px, options.tolerance_px);
+  s.status = projector_right && !camera_wrong ? Status::ok : Status::weak;
   PictureEvidence evidence = evidence_of(truth, traced, predicted, p);
   if (s.status == Status::ok)
     std::erase_if(evidence.suspects, [](const Suspect& x) { return x.name == "gamma"; });
   const double noise_px = excuses ? s.volume_bound_px : 0;
   std::vector<Suspect> geometric;
-  if (s.status != Status::ok)
+  if (!projector_right)
     geometric =
         geometric_suspects(result, make_probe(true_rig, alignment, surface), noise_px, evidence.decoded);
+  else if (camera_wrong)
+    geometric = camera_suspects(result, true_rig, alignment, surface);
   s.suspects = joined(std::move(geometric), std::move(evidence.suspects));
   return s;
 }
@@ -231,6 +238,8 @@ RigReadOptions unsaid_by(const Scene& truth) {
 }
 
 ScoreTruth read_score_truth(const std::filesystem::path& path) {
+  if (path.extension() == ".json")
+    throw InputError(path.string() + ": a result, expected the truth: a scene file or a capture folder");
   if (!std::filesystem::is_directory(path)) return {load_scene(path)};
   ScoreTruth truth{{}, path, read_manifest(path)};
   if (truth.manifest.scene.empty())

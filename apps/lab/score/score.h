@@ -42,13 +42,15 @@ struct ScoreOptions {
 /// no larger than its picture's diagonal (probe.h).
 struct ProjectorScore {
   std::string name;
-  /// ok: both errors are below max(5·bound, tolerance), or below the tolerance where the trial that gives the
-  /// bound is not ok itself; else weak.
+  /// ok: both errors, and the camera's, are below max(5·bound, tolerance), or below the tolerance where the
+  /// trial that gives the bound is not ok itself; else weak. The surface's bound is the camera's.
   Status status = Status::refused;
   double surface_error_px = 0, volume_error_px = 0;
   /// rms over the surface points of the distance between the point and the result's ray of the true pixel:
   /// how far light that is meant for the point misses it.
   double surface_error_mm = 0;
+  /// Of the result's camera over the same surface (camera_score.h); NaN where it has none.
+  double camera_error_px = 0;
   /// What noise alone predicts for the best use of this scene's pictures: of Laterna's own decoding and solve
   /// of a trial (trial.h), from its covariance. NaN where the scene's patterns are not coded or the trial was
   /// refused.
@@ -68,9 +70,10 @@ struct ProjectorScore {
 std::vector<ProjectorScore> score(const ScoreTruth& truth, const ScoreResult& result,
                                   const ScoreOptions& options = {}, const Progress& progress = {});
 
-/// {"status", "surface_error_px", "volume_error_px", "surface_error_mm", "suspects": [{"name", "explains"}],
-/// "bound": {"surface_px", "volume_px"}, "predicted_volume_px", "alignment"} of the projector with the
-/// largest volume error, and "projectors": the same of each with "name". Numbers that are not known are null.
+/// {"status", "surface_error_px", "volume_error_px", "surface_error_mm", "camera_error_px", "suspects":
+/// [{"name", "explains"}], "bound": {"surface_px", "volume_px"}, "predicted_volume_px", "alignment"} of the
+/// projector with the largest volume error, and "projectors": the same of each with "name". Numbers that are
+/// not known are null.
 nlohmann::json score_json(const std::vector<ProjectorScore>& scores);
 
 /// The same for people, with a sentence on what to change.

@@ -1,3 +1,4 @@
+#include "apps/lab/json_number.h"
 #include "apps/lab/score/score.h"
 #include "apps/lab/trial_report.h"
 
@@ -13,19 +14,20 @@ namespace {
 
 using Json = nlohmann::json;
 
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
 Json entry(const ProjectorScore& s) {
   Json suspects = Json::array();
   for (const Suspect& suspect : s.suspects)
     suspects.push_back({{"name", suspect.name}, {"explains", suspect.explains}});
   return {{"status", status_word(s.status)},
-          {"surface_error_px", number(s.surface_error_px)},
-          {"volume_error_px", number(s.volume_error_px)},
-          {"surface_error_mm", number(s.surface_error_mm)},
+          {"surface_error_px", finite_or_null(s.surface_error_px)},
+          {"volume_error_px", finite_or_null(s.volume_error_px)},
+          {"surface_error_mm", finite_or_null(s.surface_error_mm)},
+          {"camera_error_px", finite_or_null(s.camera_error_px)},
           {"suspects", suspects},
-          {"bound", {{"surface_px", number(s.surface_bound_px)}, {"volume_px", number(s.volume_bound_px)}}},
-          {"predicted_volume_px", number(s.predicted_volume_px)},
+          {"bound",
+           {{"surface_px", finite_or_null(s.surface_bound_px)},
+            {"volume_px", finite_or_null(s.volume_bound_px)}}},
+          {"predicted_volume_px", finite_or_null(s.predicted_volume_px)},
           {"alignment", alignment_word(s.alignment)}};
 }
 
@@ -51,10 +53,14 @@ std::string words_of(const ProjectorScore& s) {
       "  surface    {:>10.4g} px {:>16.4g}\n"
       "  volume     {:>10.4g} px {:>16.4g}\n"
       "  surface    {:>10.4g} mm\n"
+      "{}"
       "  verdict: {}{}\n",
       s.name, alignment_word(s.alignment), s.surface_error_px, s.surface_bound_px, s.volume_error_px,
-      s.volume_bound_px, s.surface_error_mm, status_word(s.status),
-      s.status == Status::weak ? ": wrong by more than noise explains" : "");
+      s.volume_bound_px, s.surface_error_mm,
+      std::isfinite(s.camera_error_px)
+          ? fmt::format("  camera     {:>10.4g} px of its own\n", s.camera_error_px)
+          : "",
+      status_word(s.status), s.status == Status::weak ? ": wrong by more than noise explains" : "");
   text += suspects_of(s);
   if (s.status == Status::weak && s.suspects.empty()) text += "  none of the usual suspects explains it\n";
   return text;

@@ -74,6 +74,31 @@ Rigid projector_from_camera(const ScoreRig& rig) {
                     : rig.projector.device_from_world;
 }
 
+/// What lengths of the result are multiplied by; none where a baseline is 0 or not finite.
+std::optional<double> scale_of(const ScoreRig& result, const ScoreRig& truth, const Alignment& alignment) {
+  if (!alignment.scale) return 1;
+  const bool has_pair = alignment.world || result.camera;
+  const double found = length(has_pair ? projector_from_camera(result).translation
+                                       : result.projector.device_from_world.translation);
+  const double expected = length(has_pair ? projector_from_camera(truth).translation
+                                          : truth.projector.device_from_world.translation);
+  const double scale = expected / found;
+  return scale > 0 && std::isfinite(scale) ? std::optional(scale) : std::nullopt;
+}
+
+/// Throws where a device of a pair, or a lone one, stands nowhere of its own: formats such as ROS's
+/// camera_info hold no placement.
+void expect_placement(const Rig& rig) {
+  for (const Device& projector : rig.projectors)
+    for (const Device& camera : rig.cameras)
+      if (projector.device_from_world.rotation == camera.device_from_world.rotation &&
+          projector.device_from_world.translation == camera.device_from_world.translation)
+        throw InputError(
+            fmt::format("projector \"{}\" stands exactly where camera \"{}\" does, as in a file without "
+                        "placements, expected one",
+                        projector.name, camera.name));
+}
+
 }  // namespace
 
 ScoreResult read_score_result(const std::filesystem::path& path, const RigReadOptions& options) {
@@ -95,6 +120,11 @@ ScoreResult read_score_result(const std::filesystem::path& path, const RigReadOp
   if (is_lone && path.extension() == ".cameramodel") std::swap(result.rig.projectors, result.rig.cameras);
   if (result.rig.projectors.empty())
     throw InputError(fmt::format("{}: holds no projector, expected one", path.string()));
+  try {
+    expect_placement(result.rig);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", path.string(), error.what()));
+  }
   result.covariance.resize(result.rig.projectors.size());
   return result;
 }
@@ -112,25 +142,29 @@ std::string alignment_word(const Alignment& a) {
 }
 
 std::optional<Device> align(const ScoreRig& result, const ScoreRig& truth, const Alignment& alignment) {
+  const std::optional<double> scale = scale_of(result, truth, alignment);
+  if (!scale) return std::nullopt;
   Device projector = result.projector;
-  double scale = 1;
-  if (alignment.scale) {
-    const bool has_pair = alignment.world || result.camera;
-    const double found = length(has_pair ? projector_from_camera(result).translation
-                                         : result.projector.device_from_world.translation);
-    const double expected = length(has_pair ? projector_from_camera(truth).translation
-                                            : truth.projector.device_from_world.translation);
-    scale = expected / found;
-    if (!(scale > 0) || !std::isfinite(scale)) return std::nullopt;
-  }
   if (alignment.world) {
     Rigid pair = projector_from_camera(result);
-    pair.translation *= scale;
+    pair.translation *= *scale;
     projector.device_from_world = compose(pair, truth.camera ? truth.camera->device_from_world : Rigid{});
   } else {
-    projector.device_from_world.translation *= scale;
+    projector.device_from_world.translation *= *scale;
   }
   return projector;
+}
+
+std::optional<Device> aligned_camera(const ScoreRig& result, const ScoreRig& truth,
+                                     const Alignment& alignment) {
+  const std::optional<double> scale = scale_of(result, truth, alignment);
+  if (!result.camera || !truth.camera || !scale) return std::nullopt;
+  Device camera = *result.camera;
+  if (alignment.world)
+    camera.device_from_world = truth.camera->device_from_world;
+  else
+    camera.device_from_world.translation *= *scale;
+  return camera;
 }
 
 }  // namespace laterna

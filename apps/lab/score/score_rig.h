@@ -52,4 +52,9 @@ std::string alignment_word(const Alignment& alignment);
 /// not finite.
 std::optional<Device> align(const ScoreRig& result, const ScoreRig& truth, const Alignment& alignment);
 
+/// The result's camera in the truth's world, likewise. world: where the true one stands. None where either
+/// has no camera.
+std::optional<Device> aligned_camera(const ScoreRig& result, const ScoreRig& truth,
+                                     const Alignment& alignment);
+
 }  // namespace laterna

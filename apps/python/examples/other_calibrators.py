@@ -128,6 +128,8 @@ def by_laterna(camera_pixels, projector_pixels, camera_size, projector_size):
 
 
 def main():
+    if len(sys.argv) != 2:
+        sys.exit("expected a scene with a board: other_calibrators.py data/scenes/board.toml")
     base = laterna.load(sys.argv[1]).changed(QUICK)
     scenes = [base.changed({"mesh.rotate_deg": [float(a) for a in r], "mesh.translate": list(t)}) for r, t in PLACES]
     truth, camera_from_world = in_camera_frame(base)
