@@ -59,9 +59,9 @@ struct CloudScore {
 ///
 /// each mean over the smaller four fifths, so that outliers hide no mistake, with d the distance to the true
 /// point of the camera's pixel, else to the surface, e the projector's error where it is known, and noise the
-/// larger of bound and tolerance. Without camera pixels a cloud that undoing leaves less than 0.4 or more than
-/// 1.6 times as wide as the lit surface does not count: any surface through the origin is met by a cloud that
-/// shrinks onto it. A frame that is not told is looked for where nothing is aligned.
+/// larger of bound and tolerance. Without camera pixels a cloud that undoing leaves less than 0.4 or more
+/// than 1.6 times as wide as the lit surface does not count: any surface through the origin is met by a cloud
+/// that shrinks onto it. A frame that is not told is looked for where nothing is aligned.
 ///
 /// Throws InputError where a device is not in the scene, or not told and not the only one; where an alignment
 /// is asked for and the cloud has no pixels, or too few that see the surface; or where the scene's projectors
@@ -69,9 +69,9 @@ struct CloudScore {
 CloudScore score_cloud(const ScoreTruth& truth, PointCloud cloud, const CloudScoreOptions& options = {},
                        const Progress& progress = {});
 
-/// score_json()'s keys (volume_error_px and predicted_volume_px null, projectors empty) and "points",
-/// "median_mm", "p95_mm", "point_error_mm", "outliers", "outlier_limit_mm", "no_true_point", "frame",
-/// "better_frame" (null where there is none).
+/// score_json()'s keys (volume_error_px and predicted_volume_px null, projectors and warnings empty) and
+/// "points", "median_mm", "p95_mm", "point_error_mm", "outliers", "outlier_limit_mm", "no_true_point",
+/// "frame", "better_frame" (null where there is none).
 nlohmann::json cloud_score_json(const CloudScore& score);
 
 /// The same for people.
