@@ -59,13 +59,19 @@ RigReadOptions read_options(const Words& words) {
           size_of(words.projector_size, "--projector-size")};
 }
 
-void convert_cloud(const Words& words) {
+// A calibration; what its reader had to say goes to the notes.
+Rig rig_of(const std::string& path, const Words& words, Notes& notes) {
+  Rig rig = read_rig(path, read_options(words));
+  notes.insert(notes.end(), rig.notes.begin(), rig.notes.end());
+  return rig;
+}
+
+void convert_cloud(const Words& words, Notes& notes) {
   const CloudOptions options{words.capture.camera, words.capture.projector};
   const auto points =
-      words.decoded
-          ? decoded_cloud(words.from,
-                          read_rig(words.rig.empty() ? words.from : words.rig, read_options(words)), options)
-          : true_cloud(words.from, options);
+      words.decoded ? decoded_cloud(words.from,
+                                    rig_of(words.rig.empty() ? words.from : words.rig, words, notes), options)
+                    : true_cloud(words.from, options);
   write_file(words.to, std::string_view(point_cloud_ply(points)));
 }
 
@@ -107,7 +113,7 @@ Notes convert(const Words& words, const Common& common) {
   if (std::filesystem::exists(words.to))
     throw InputError(words.to + ": is there already, expected a new name");
   if (words.as == "ply" || (words.as.empty() && words.to.ends_with(".ply"))) {
-    convert_cloud(words);
+    convert_cloud(words, notes);
   } else if (is_ply_file(words.from) &&
              (words.as == "csv" || (words.as.empty() && words.to.ends_with(".csv")))) {
     convert_points(words, notes);
@@ -119,7 +125,7 @@ Notes convert(const Words& words, const Common& common) {
     export_capture(words.from, words.to, what, notes,
                    [&](const std::string& line) { progress(common, line); });
   } else {
-    const Rig rig = read_rig(words.from, read_options(words));
+    const Rig rig = rig_of(words.from, words, notes);
     write_rig(words.to, rig_texts(rig, words.to, words.as, words.to_unit_m, notes));
   }
   return notes;

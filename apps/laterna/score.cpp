@@ -49,10 +49,12 @@ void run_score(ScoreWords words, const CLI::App& command, Common& common) {
   const ScoreResult result = read_score_result(words.result, unsaid_by(truth.scene));
   const auto scores =
       score(truth, result, words.options, [&](const std::string& line) { progress(common, line); });
-  if (common.json)
-    fmt::print("{}\n", score_json(scores).dump());
-  else
+  if (common.json) {
+    fmt::print("{}\n", score_json(scores, result.rig.notes).dump());
+  } else {
+    for (const std::string& note : result.rig.notes) fmt::print("note: {}\n", note);
     fmt::print("{}", score_text(scores));
+  }
   const auto has = [&](Status status) {
     return std::any_of(scores.begin(), scores.end(), [&](const auto& s) { return s.status == status; });
   };

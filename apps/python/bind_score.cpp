@@ -17,7 +17,7 @@ nlohmann::json score_files(const std::filesystem::path& truth_path, const std::f
                            const ScoreOptions& options, const Progress& progress) {
   const ScoreTruth truth = read_score_truth(truth_path);
   const ScoreResult result = read_score_result(result_path, unsaid_by(truth.scene));
-  return score_json(score(truth, result, options, progress));
+  return score_json(score(truth, result, options, progress), result.rig.notes);
 }
 
 pybind11::object score_paths(const std::filesystem::path& truth, const std::filesystem::path& result,

@@ -1,6 +1,7 @@
 #include "sim/formats/kalibr.h"
 
 #include "sim/error.h"
+#include "sim/formats/fisheye.h"
 
 #include <fmt/format.h>
 
@@ -17,12 +18,15 @@ std::string name_of(const Place& camera, const std::string& key) {
   return topic.substr(first, topic.find('/', first) - first);
 }
 
-Lens lens_of(const Place& camera) {
+// `device` has its name and intrinsics.
+Lens lens_of(const Place& camera, const Device& device, Notes& notes) {
   const Place model = camera.at("distortion_model");
   const std::string name = model.text();
   if (name == "none") return {};
-  if (name != "radtan") fail_at(model, "radtan or none");
-  return lens_from_opencv(camera.at("distortion_coeffs").numbers(4), camera.name);
+  if (name != "radtan" && name != "equidistant") fail_at(model, "radtan, equidistant or none");
+  const std::vector<double> coefficients = camera.at("distortion_coeffs").numbers(4);
+  return name == "radtan" ? lens_from_opencv(coefficients, camera.name)
+                          : lens_from_fisheye(device, coefficients, camera.name, notes);
 }
 
 Rigid link_of(const Place& camera) {
@@ -59,7 +63,7 @@ Rig parse_kalibr(const std::string& text, const std::string& file_name) {
     device.name = name_of(camera, key);
     device.intrinsics = {camera.at("resolution").size_px(), k[0], k[1], k[2], k[3]};
     device.device_from_world = device_from_world;
-    device.lens = lens_of(camera);
+    device.lens = lens_of(camera, device, rig.notes);
     add_by_name(rig, std::move(device));
   }
   return rig;

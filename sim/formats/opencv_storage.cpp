@@ -1,6 +1,7 @@
 #include "sim/formats/opencv_storage.h"
 
 #include "sim/error.h"
+#include "sim/formats/fisheye.h"
 
 #include <fmt/format.h>
 
@@ -107,11 +108,18 @@ constexpr std::array samples = {
     SampleLayout{"Camera_Matrix", "Distortion_Coefficients", "image_Width", "image_Height"},
 };
 
-Device sample_of(const Place& file, const SampleLayout& layout) {
-  if (file.has("fisheye_model") && file.at("fisheye_model").whole_number() != 0)
-    fail_at(file.at("fisheye_model"), "0: no lens here is OpenCV's fisheye model");
-  return device_of("camera", file.at(layout.k), file.at(layout.d),
-                   size_at(file, layout.width, layout.height));
+Rig sample_of(const Place& file, const SampleLayout& layout) {
+  const Place k = file.at(layout.k), d = file.at(layout.d);
+  const glm::ivec2 size = size_at(file, layout.width, layout.height);
+  if (!file.has("fisheye_model") || file.at("fisheye_model").whole_number() == 0)
+    return {{device_of("camera", k, d, size)}, {}};
+  Rig rig;
+  Device camera;
+  camera.name = "camera";
+  camera.intrinsics = intrinsics_from_k(matrix(k, 9), size, k.name);
+  camera.lens = lens_from_fisheye(camera, matrix(d, 4), d.name, rig.notes);
+  rig.cameras.push_back(std::move(camera));
+  return rig;
 }
 
 std::string matrix_text(const char* key, int rows, const std::vector<double>& data, bool xml,
@@ -230,7 +238,7 @@ Rig parse_opencv_storage(const std::string& text, const std::string& file_name,
         (file.has(layout.rotation) || std::string(layout.rotation) != "roration"))
       return pair_of(file, layout);
   for (const SampleLayout& layout : samples)
-    if (file.has(layout.k)) return {{sample_of(file, layout)}, {}};
+    if (file.has(layout.k)) return sample_of(file, layout);
   throw InputError(fmt::format(
       "{}: no layout that is known, expected cam_K, cam_int, Kc, M1, camera_matrix, Cameras or Projectors",
       file_name));

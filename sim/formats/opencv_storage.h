@@ -14,6 +14,7 @@
 //   (read only)    camera_matrix, distortion_coefficients, image_width, image_height; in older files
 //                  Camera_Matrix, Distortion_Coefficients, image_Width, image_Height
 //                                                                      OpenCV's calibration sample
+//                  with fisheye_model other than 0 and k1, k2, k3, k4: a fisheye, as a spline (fisheye.h)
 //
 // There and here alike: pixel centres at whole numbers, u right, v down; x right, y down, z forward; K row by
 // row; distortion k1, k2, p1, p2, k3, ... Pairs: x_projector = R·x_camera + T, the world is the camera's
@@ -29,8 +30,9 @@
 namespace laterna {
 
 /// `extrinsics`: the text of a second file whose keys are added. Devices are named "camera" and "projector"
-/// in pairs; a size that the file does not say stays 0. Throws InputError, beginning with `file_name` and the
-/// key, for anything else, such as a fisheye model.
+/// in pairs; a size that the file does not say stays 0. A lens that is fitted is told in the notes. Throws
+/// InputError, beginning with `file_name` and the key, for anything else, such as a fisheye in a file without
+/// its picture's size.
 Rig parse_opencv_storage(const std::string& text, const std::string& file_name,
                          const std::string& extrinsics = "");
 
@@ -38,7 +40,8 @@ Rig parse_opencv_storage(const std::string& text, const std::string& file_name,
 bool is_opencv_layout(const Tree& tree);
 
 /// `layout` is a name of the table above. YAML, or XML for procam and slstudio, as the tools write. Throws
-/// InputError where a pair layout is not given one camera and one projector, or a lens is none of OpenCV's.
+/// InputError where a pair layout is not given one camera and one projector, or a lens is none of OpenCV's,
+/// such as the spline of a fisheye.
 std::string opencv_storage_text(const Rig& rig, const std::string& layout, Notes& notes);
 
 }  // namespace laterna

@@ -10,9 +10,6 @@
 
 namespace laterna {
 
-/// Sentences about what a format could not hold, for whoever writes it.
-using Notes = std::vector<std::string>;
-
 /// K row by row: fx 0 cx; 0 fy cy; 0 0 1. Throws InputError, beginning with `place`, for another last row or
 /// a skew of more than 1e-9 of fx, which no device here has.
 Intrinsics intrinsics_from_k(std::span<const double> k, glm::ivec2 size, const std::string& place);

@@ -85,8 +85,12 @@ bool is_ros(const fs::path& path, const Tree& tree) {
   return tree.is_object() && tree.contains("distortion_model");
 }
 Rig read_ros(const fs::path& path, const RigReadOptions&) {
-  return device_each(path, ".yaml",
-                     [](const fs::path& file) { return parse_camera_info(text_of(file), file.string()); });
+  Notes notes;
+  Rig rig = device_each(path, ".yaml", [&](const fs::path& file) {
+    return parse_camera_info(text_of(file), file.string(), notes);
+  });
+  rig.notes = std::move(notes);
+  return rig;
 }
 std::vector<RigText> ros_texts(const Rig& rig, Notes& notes) {
   note_projectors(rig, "ROS's camera_info", notes);

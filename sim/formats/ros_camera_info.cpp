@@ -1,6 +1,7 @@
 #include "sim/formats/ros_camera_info.h"
 
 #include "sim/error.h"
+#include "sim/formats/fisheye.h"
 
 #include <fmt/format.h>
 
@@ -10,12 +11,15 @@ namespace {
 
 std::vector<double> matrix(const Place& place, std::size_t count) { return place.at("data").numbers(count); }
 
-Lens lens_of(const Place& file) {
+// `device` has its name and intrinsics.
+Lens lens_of(const Place& file, const Device& device, Notes& notes) {
   const Place model = file.at("distortion_model");
   const Place coefficients = file.at("distortion_coefficients");
   const std::string name = model.text();
+  if (name == "equidistant" || name == "fisheye")
+    return lens_from_fisheye(device, matrix(coefficients, 4), coefficients.name, notes);
   if (name != "plumb_bob" && name != "rational_polynomial")
-    fail_at(model, "plumb_bob or rational_polynomial");
+    fail_at(model, "plumb_bob, rational_polynomial, equidistant or fisheye");
   return lens_from_opencv(matrix(coefficients, 0), coefficients.name);
 }
 
@@ -44,7 +48,7 @@ std::string matrix_text(const char* key, int rows, const std::vector<double>& da
 
 }  // namespace
 
-Device parse_camera_info(const std::string& text, const std::string& file_name) {
+Device parse_camera_info(const std::string& text, const std::string& file_name, Notes& notes) {
   const Tree tree = yaml_tree(text, file_name);
   const Place file{&tree, file_name};
   Device device;
@@ -52,7 +56,7 @@ Device parse_camera_info(const std::string& text, const std::string& file_name) 
   const Place k = file.at("camera_matrix");
   const glm::ivec2 size(file.at("image_width").whole_number(), file.at("image_height").whole_number());
   device.intrinsics = intrinsics_from_k(matrix(k, 9), size, k.name);
-  device.lens = lens_of(file);
+  device.lens = lens_of(file, device, notes);
   device.device_from_world = placement_of(file);
   return device;
 }

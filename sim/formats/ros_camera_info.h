@@ -2,7 +2,8 @@
 // a place.
 //
 //   image_width, image_height, camera_name, camera_matrix: {rows: 3, cols: 3, data}, distortion_model:
-//   plumb_bob (k1, k2, t1, t2, k3) or rational_polynomial (k1, k2, t1, t2, k3, k4, k5, k6),
+//   plumb_bob (k1, k2, t1, t2, k3), rational_polynomial (k1, k2, t1, t2, k3, k4, k5, k6) or, read only,
+//   equidistant, also called fisheye (k1, k2, k3, k4), as a spline (fisheye.h),
 //   distortion_coefficients: {rows, cols, data}, rectification_matrix, projection_matrix
 //
 // There and here alike: pixel centres at whole numbers, u right, v down, x right, y down, z forward; K row by
@@ -21,11 +22,12 @@
 
 namespace laterna {
 
-/// The device, in the first one's rectified frame. Throws InputError, beginning with `file_name` and the key.
-Device parse_camera_info(const std::string& text, const std::string& file_name);
+/// The device, in the first one's rectified frame; notes a lens that is fitted. Throws InputError, beginning
+/// with `file_name` and the key.
+Device parse_camera_info(const std::string& text, const std::string& file_name, Notes& notes);
 
 /// Notes that the placement is lost. Throws InputError for a lens that is none of OpenCV's with up to eight
-/// terms.
+/// terms, such as the spline of a fisheye.
 std::string camera_info_text(const Device& device, Notes& notes);
 
 }  // namespace laterna

@@ -83,6 +83,26 @@ TEST(Convert, AnEstimateBringsTheCameraThatItWasSolvedFrom) {
   EXPECT_EQ(read_rig(scratch / "left.cameramodel").cameras.size(), 1u);
 }
 
+TEST(Convert, TellsHowFarAFisheyesSplineIsOff) {
+  const ScratchFolder scratch;
+  testing::write_text(scratch / "camchain.yaml", R"(cam0:
+  camera_model: pinhole
+  distortion_coeffs: [-0.01, 0.02, -0.03, 0.01]
+  distortion_model: equidistant
+  intrinsics: [460.0, 460.0, 370.0, 240.0]
+  resolution: [752, 480]
+)");
+  const auto result = laterna("convert camchain.yaml cam0.cameramodel", scratch.path());
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("note: lens of \"cam0\": fisheye fitted by a spline of"));
+  EXPECT_THAT(read_rig(scratch / "cam0.cameramodel").cameras.at(0).lens.model,
+              StartsWith("LENSMODEL_SPLINED"));
+  const auto back = laterna("convert camchain.yaml back.yaml --as kalibr", scratch.path());
+  EXPECT_EQ(back.exit_code, 2);
+  EXPECT_THAT(back.err, HasSubstr("kalibr holds OpenCV's lenses only"));
+  EXPECT_FALSE(fs::exists(scratch / "back.yaml"));
+}
+
 TEST(Convert, BadWordsAreOneSentence) {
   const ScratchFolder scratch;
   const auto error = [&](const std::string& words) {

@@ -49,6 +49,27 @@ TEST(ScoreCommand, KeepsItsContract) {
   EXPECT_THAT(words.out, HasSubstr("move the principal point by half a pixel"));
 }
 
+TEST(ScoreCommand, TellsALensThatWasFitted) {
+  const ScratchFolder scratch;
+  write_text(scratch / "small.toml", small);
+  ASSERT_EQ(laterna("convert small.toml camchain.yaml --as kalibr", scratch.path()).exit_code, 0);
+  std::string chain = testing::read_text(scratch / "camchain.yaml");
+  const auto put = [&](const std::string& from, const std::string& to) {
+    ASSERT_NE(chain.find(from), std::string::npos) << chain;
+    chain.replace(chain.find(from), from.size(), to);
+  };
+  put("distortion_coeffs: []", "distortion_coeffs: [0.01, 0, 0, 0]");
+  put("distortion_model: none", "distortion_model: equidistant");  // the camera's, which a score does not use
+  put("/left/", "/projector/");
+  write_text(scratch / "camchain.yaml", chain);
+  const json scored = score_of("small.toml camchain.yaml", scratch, 0);
+  ASSERT_EQ(scored["warnings"].size(), 1u);
+  EXPECT_THAT(scored["warnings"][0].get<std::string>(),
+              HasSubstr("lens of \"cam\": fisheye fitted by a spline"));
+  const auto words = laterna("score small.toml camchain.yaml", scratch.path());
+  EXPECT_THAT(words.out, ::testing::StartsWith("note: lens of \"cam\""));
+}
+
 TEST(ScoreCommand, MissingAndForeignFilesAreOneSentence) {
   const ScratchFolder scratch;
   write_text(scratch / "small.toml", small);

@@ -52,7 +52,8 @@ Json cloud_score_json(const CloudScore& s) {
           {"alignment", alignment_word(s.alignment)},
           {"frame", s.frame.empty() ? "world" : s.frame},
           {"better_frame", s.better_frame.empty() ? Json(nullptr) : Json(s.better_frame)},
-          {"projectors", Json::array()}};
+          {"projectors", Json::array()},
+          {"warnings", Json::array()}};
 }
 
 std::string cloud_score_text(const CloudScore& s) {

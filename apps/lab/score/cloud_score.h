@@ -69,9 +69,9 @@ struct CloudScore {
 CloudScore score_cloud(const ScoreTruth& truth, PointCloud cloud, const CloudScoreOptions& options = {},
                        const Progress& progress = {});
 
-/// score_json()'s keys (volume_error_px and predicted_volume_px null, projectors empty) and "points",
-/// "median_mm", "p95_mm", "point_error_mm", "outliers", "outlier_limit_mm", "no_true_point", "frame",
-/// "better_frame" (null where there is none).
+/// score_json()'s keys (volume_error_px and predicted_volume_px null, projectors and warnings empty) and
+/// "points", "median_mm", "p95_mm", "point_error_mm", "outliers", "outlier_limit_mm", "no_true_point",
+/// "frame", "better_frame" (null where there is none).
 nlohmann::json cloud_score_json(const CloudScore& score);
 
 /// The same for people.

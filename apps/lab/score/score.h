@@ -73,8 +73,8 @@ std::vector<ProjectorScore> score(const ScoreTruth& truth, const ScoreResult& re
 /// {"status", "surface_error_px", "volume_error_px", "surface_error_mm", "camera_error_px", "suspects":
 /// [{"name", "explains"}], "bound": {"surface_px", "volume_px"}, "predicted_volume_px", "alignment"} of the
 /// projector with the largest volume error, and "projectors": the same of each with "name". Numbers that are
-/// not known are null.
-nlohmann::json score_json(const std::vector<ProjectorScore>& scores);
+/// not known are null. "warnings": those given, such as the notes of the result's rig.
+nlohmann::json score_json(const std::vector<ProjectorScore>& scores, const Notes& warnings = {});
 
 /// The same for people, with a sentence on what to change.
 std::string score_text(const std::vector<ProjectorScore>& scores);

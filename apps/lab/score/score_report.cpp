@@ -68,8 +68,9 @@ std::string words_of(const ProjectorScore& s) {
 
 }  // namespace
 
-Json score_json(const std::vector<ProjectorScore>& scores) {
+Json score_json(const std::vector<ProjectorScore>& scores, const Notes& warnings) {
   Json json = entry(worst(scores));
+  json["warnings"] = warnings;
   json["projectors"] = Json::array();
   for (const ProjectorScore& s : scores) {
     json["projectors"].push_back(entry(s));

@@ -5,6 +5,8 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+
 namespace laterna {
 namespace {
 
@@ -51,6 +53,26 @@ TEST(Kalibr, ReadsAChainByHand) {
                240 + 1000 * (y + 0.01 * (r2 + 2 * y * y)));
 }
 
+// A pixel of OpenCV's fisheye model at θ = atan(0.5) along (3, 4)/5.
+TEST(Kalibr, ReadsAnEquidistantLensAsASpline) {
+  std::string text = by_hand;
+  text.replace(text.find("[0.1, 0.0, 0.0, 0.0]"), 20, "[-0.01, 0.02, -0.03, 0.01]");
+  text.replace(text.find("radtan"), 6, "equidistant");
+  const Rig rig = parse_kalibr(text, "camchain.yaml");
+  const double t = std::atan(0.5), t2 = t * t;
+  const double theta_d =
+      t * (1 - 0.01 * t2 + 0.02 * t2 * t2 - 0.03 * t2 * t2 * t2 + 0.01 * t2 * t2 * t2 * t2);
+  const glm::dvec2 pixel = rig_pixel(rig, "left", {0.3, 0.4, 1});
+  EXPECT_LT(glm::distance(pixel, glm::dvec2(320 + 500 * theta_d * 0.6, 240 + 600 * theta_d * 0.8)),
+            0.002);  // what the fit promises
+  ASSERT_EQ(rig.notes.size(), 1u);
+  EXPECT_THAT(rig.notes[0], HasSubstr("lens of \"left\": fisheye fitted by a spline"));
+  EXPECT_EQ(parse_kalibr(by_hand, "camchain.yaml").notes, Notes{});
+  Notes notes;
+  EXPECT_THAT(testing::input_error([&] { kalibr_text(rig, notes); }),
+              HasSubstr("kalibr holds OpenCV's lenses only, \"left\" has LENSMODEL_SPLINED_STEREOGRAPHIC"));
+}
+
 TEST(Kalibr, SurvivesARoundTripRelativeToItsFirst) {
   auto random = testing::generator();
   Rig rig = testing::random_pair(random, "LENSMODEL_OPENCV4", 4);
@@ -72,7 +94,11 @@ std::string error_of(std::string text, const std::string& from, const std::strin
 
 TEST(Kalibr, BadFiles) {
   EXPECT_THAT(error_of(by_hand, "pinhole", "omni"), HasSubstr("cam0.camera_model: found \"omni\""));
-  EXPECT_THAT(error_of(by_hand, "radtan", "equidistant"), HasSubstr("expected radtan or none"));
+  EXPECT_THAT(error_of(by_hand, "radtan", "fov"), HasSubstr("expected radtan, equidistant or none"));
+  const std::string fisheye =
+      std::string(by_hand).replace(std::string(by_hand).find("radtan"), 6, "equidistant");
+  EXPECT_THAT(error_of(fisheye, "[500.0, 600.0, ", "[100.0, 100.0, "),
+              HasSubstr("c.yaml: cam0: pixel (-0.5, -0.5) of the fisheye lens has no ray"));
   EXPECT_THAT(error_of(by_hand, "T_cn_cnm1", "T_cam_imu"), HasSubstr("cam1: \"T_cn_cnm1\" is missing"));
   EXPECT_THAT(error_of(by_hand, "[0.0, 0.0, 0.0, 1.0]", "[0.0, 0.0, 1.0, 1.0]"), HasSubstr("last row"));
   EXPECT_THAT(error_of(by_hand, "[640, 480]", "[640]"), HasSubstr("width and height"));

@@ -5,6 +5,8 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+
 namespace laterna {
 namespace {
 
@@ -237,10 +239,41 @@ distortion_coefficients: !!opencv-matrix
     EXPECT_EQ(rig.cameras.at(0).intrinsics.size, glm::ivec2(640, 480)) << name;
     EXPECT_PIXEL(rig_pixel(rig, "camera", {0.1, 0.2, 1}), 320 + 500 * 0.1 * 1.005, 240 + 600 * 0.2 * 1.005);
   }
-  std::string fisheye = now;
-  fisheye.replace(fisheye.find("model: 0"), 8, "model: 1");
-  EXPECT_THAT(testing::input_error([&] { parse_opencv_storage(fisheye, "c.yml"); }),
-              HasSubstr("c.yml: fisheye_model: found \"1\", expected 0: no lens here"));
+}
+
+// A pixel of OpenCV's fisheye model at θ = atan(0.5) along (3, 4)/5.
+TEST(OpencvStorage, ReadsAFisheyeOfTheCalibrationSampleAsASpline) {
+  const std::string by_hand = R"(%YAML:1.0
+---
+image_width: 640
+image_height: 480
+fisheye_model: 1
+camera_matrix: !!opencv-matrix
+   rows: 3
+   cols: 3
+   dt: d
+   data: [ 500., 0., 320., 0., 600., 240., 0., 0., 1. ]
+distortion_coefficients: !!opencv-matrix
+   rows: 4
+   cols: 1
+   dt: d
+   data: [ 0.05, 0., 0., -0.01 ]
+)";
+  const testing::ScratchFolder folder;
+  const Rig rig = read_rig(testing::write_text(folder / "camera.yml", by_hand));
+  const double t = std::atan(0.5), theta_d = t + 0.05 * std::pow(t, 3) - 0.01 * std::pow(t, 9);
+  const glm::dvec2 pixel = rig_pixel(rig, "camera", {0.3, 0.4, 1});
+  EXPECT_LT(glm::distance(pixel, glm::dvec2(320 + 500 * theta_d * 0.6, 240 + 600 * theta_d * 0.8)),
+            0.002);  // what the fit promises
+  ASSERT_EQ(rig.notes.size(), 1u);
+  EXPECT_THAT(rig.notes[0], HasSubstr("lens of \"camera\": fisheye fitted by a spline"));
+  Notes notes;
+  EXPECT_THAT(testing::input_error([&] { opencv_storage_text(rig, "opencv", notes); }),
+              HasSubstr("OpenCV's storage holds OpenCV's lenses only"));
+  std::string unsized = by_hand;
+  unsized.erase(unsized.find("image_width"), 17);
+  EXPECT_THAT(testing::input_error([&] { parse_opencv_storage(unsized, "c.yml"); }),
+              HasSubstr("c.yml: distortion_coefficients: size is 0 × 0"));
 }
 
 // pixel_projectorᵀ·F·pixel_camera = 0 and x_projectorᵀ·E·x_camera = 0: without both, scan3d-capture takes no
