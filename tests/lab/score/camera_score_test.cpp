@@ -2,6 +2,7 @@
 #include "apps/lab/score/camera_score.h"
 
 #include "apps/lab/score/score.h"
+#include "apps/lab/trial.h"
 #include "sim/scene_file.h"
 #include "tests/testing.h"
 
