@@ -19,7 +19,7 @@ namespace {
 constexpr double degree = std::numbers::pi / 180, widest = 85 * degree;
 constexpr double good_px = 0.002, worst_px = 0.02, largest_coefficient = 1e4;
 constexpr int knots_tried[] = {12, 16, 24, 32, 48, 64, 96};
-constexpr int tested_across = 97;
+constexpr int tested_across = 65;
 
 // θ_d of an angle, and back.
 class Equidistant {
