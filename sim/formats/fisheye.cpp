@@ -59,6 +59,7 @@ struct Sight {
 
 std::vector<Sight> sights_over(const Intrinsics& k, const Equidistant& model, const std::string& place) {
   std::vector<Sight> sights;
+  sights.reserve(std::size_t(tested_across) * tested_across);
   for (int i = 0; i < tested_across * tested_across; ++i) {
     const glm::dvec2 part(i % tested_across, i / tested_across);
     const glm::dvec2 pixel = glm::dvec2(k.size) * part / double(tested_across - 1) - 0.5;

@@ -19,7 +19,7 @@
 namespace laterna {
 
 /// Throws InputError, beginning with `file_name` and the key. Equidistant lenses, of which a
-/// file may hold 32, are told in the notes.
+/// file may hold 16, are told in the notes.
 Rig parse_kalibr(const std::string& text, const std::string& file_name);
 
 /// Throws InputError for a lens that is neither a pinhole nor four terms of OpenCV's, such as the spline of
