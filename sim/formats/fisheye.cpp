@@ -19,7 +19,7 @@ namespace {
 constexpr double degree = std::numbers::pi / 180, widest = 85 * degree;
 constexpr double good_px = 0.002, worst_px = 0.02, largest_coefficient = 1e4;
 constexpr int knots_tried[] = {12, 16, 24, 32, 48, 64, 96};
-constexpr int tested_across = 97;
+constexpr int tested_across = 65;
 
 // θ_d of an angle, and back.
 class Equidistant {
@@ -59,6 +59,7 @@ struct Sight {
 
 std::vector<Sight> sights_over(const Intrinsics& k, const Equidistant& model, const std::string& place) {
   std::vector<Sight> sights;
+  sights.reserve(std::size_t(tested_across) * tested_across);
   for (int i = 0; i < tested_across * tested_across; ++i) {
     const glm::dvec2 part(i % tested_across, i / tested_across);
     const glm::dvec2 pixel = glm::dvec2(k.size) * part / double(tested_across - 1) - 0.5;

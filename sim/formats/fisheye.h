@@ -16,7 +16,7 @@ namespace laterna {
 /// mrcal's LENSMODEL_SPLINED_STEREOGRAPHIC with the same fx, fy, cx, cy (sim/spline_knots.h), whose shift Δu
 /// is a tensor product of cubic splines through (θ_d/|u| - 1)·u at the knots: 12×12 of them, or as many more,
 /// up to 96×96, as bring the largest difference over the image below 0.002 px. That difference, taken over
-/// rays of 97×97 pixels from edge to edge, is told in a note: `lens of "cam0": ...`. The same input gives the
+/// rays of 65×65 pixels from edge to edge, is told in a note: `lens of "cam0": ...`. The same input gives the
 /// same bits.
 ///
 /// `device` has its name and its intrinsics. Throws InputError, beginning with `place`, for intrinsics that

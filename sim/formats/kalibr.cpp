@@ -9,6 +9,8 @@ namespace laterna {
 
 namespace {
 
+constexpr std::size_t most_fitted = 16;  // lenses of a file: each takes some 15 ms
+
 // "/projector/image_raw" to "projector"; the key where there is no topic.
 std::string name_of(const Place& camera, const std::string& key) {
   if (!camera.has("rostopic")) return key;
@@ -25,8 +27,10 @@ Lens lens_of(const Place& camera, const Device& device, Notes& notes) {
   if (name == "none") return {};
   if (name != "radtan" && name != "equidistant") fail_at(model, "radtan, equidistant or none");
   const std::vector<double> coefficients = camera.at("distortion_coeffs").numbers(4);
-  return name == "radtan" ? lens_from_opencv(coefficients, camera.name)
-                          : lens_from_fisheye(device, coefficients, camera.name, notes);
+  if (name == "radtan") return lens_from_opencv(coefficients, camera.name);
+  if (notes.size() == most_fitted)
+    fail_at(model, fmt::format("no more than {} equidistant lenses in a file", most_fitted));
+  return lens_from_fisheye(device, coefficients, camera.name, notes);
 }
 
 Rigid link_of(const Place& camera) {

@@ -18,7 +18,8 @@
 
 namespace laterna {
 
-/// Throws InputError, beginning with `file_name` and the key. A lens that is fitted is told in the notes.
+/// Throws InputError, beginning with `file_name` and the key. Equidistant lenses, of which a
+/// file may hold 16, are told in the notes.
 Rig parse_kalibr(const std::string& text, const std::string& file_name);
 
 /// Throws InputError for a lens that is neither a pinhole nor four terms of OpenCV's, such as the spline of

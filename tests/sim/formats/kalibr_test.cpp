@@ -73,6 +73,17 @@ TEST(Kalibr, ReadsAnEquidistantLensAsASpline) {
               HasSubstr("kalibr holds OpenCV's lenses only, \"left\" has LENSMODEL_SPLINED_STEREOGRAPHIC"));
 }
 
+TEST(Kalibr, AFileHasNoMoreThan16LensesToFit) {
+  std::string text;
+  for (int i = 0; i <= 16; ++i)
+    text += "cam" + std::to_string(i) +
+            ": {camera_model: pinhole, distortion_model: equidistant, distortion_coeffs: [0, 0, 0, 0], "
+            "intrinsics: [99, 99, 8, 8], resolution: [16, 16], "
+            "T_cn_cnm1: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]}\n";
+  EXPECT_THAT(testing::input_error([&] { parse_kalibr(text, "c.yaml"); }),
+              HasSubstr("c.yaml: cam16.distortion_model: found \"equidistant\", expected no more than 16"));
+}
+
 TEST(Kalibr, SurvivesARoundTripRelativeToItsFirst) {
   auto random = testing::generator();
   Rig rig = testing::random_pair(random, "LENSMODEL_OPENCV4", 4);
