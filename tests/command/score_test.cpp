@@ -59,10 +59,13 @@ TEST(ScoreCommand, TellsALensThatWasFitted) {
     chain.replace(chain.find(from), from.size(), to);
   };
   put("distortion_coeffs: []", "distortion_coeffs: [0.01, 0, 0, 0]");
-  put("distortion_model: none", "distortion_model: equidistant");  // the camera's, which a score does not use
+  put("distortion_model: none",
+      "distortion_model: equidistant");  // the camera's, which then is not the true one
   put("/left/", "/projector/");
   write_text(scratch / "camchain.yaml", chain);
-  const json scored = score_of("small.toml camchain.yaml", scratch, 0);
+  const json scored = score_of("small.toml camchain.yaml", scratch, 4);
+  EXPECT_LT(scored["volume_error_px"].get<double>(), 1e-9);  // roundings of some 300 px
+  EXPECT_GT(scored["camera_error_px"].get<double>(), 1);
   ASSERT_EQ(scored["warnings"].size(), 1u);
   EXPECT_THAT(scored["warnings"][0].get<std::string>(),
               HasSubstr("lens of \"cam\": fisheye fitted by a spline"));
@@ -90,7 +93,9 @@ TEST(ScoreCommand, MissingAndForeignFilesAreOneSentence) {
 
 TEST(ScoreCommand, AFileWithoutPlacementsIsNoResult) {
   const ScratchFolder scratch;
-  write_text(scratch / "small.toml", small);
+  std::string scene = small;
+  scene.replace(scene.find("left"), 4, "projector");  // ROS's names tell what is one
+  write_text(scratch / "small.toml", scene);
   ASSERT_EQ(laterna("convert small.toml ros --as ros", scratch.path()).exit_code, 0);
   const auto run = laterna("score small.toml ros", scratch.path());
   EXPECT_EQ(run.exit_code, 2) << run.out;
