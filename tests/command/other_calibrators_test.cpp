@@ -19,7 +19,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-using ::testing::HasSubstr;
 using testing::laterna;
 using testing::ScratchFolder;
 
@@ -39,7 +38,8 @@ Corners corners_of(const fs::path& file, const std::string& device) {
   for (std::string picture, x, y, level; lines >> picture >> x >> y >> level;) {
     const int k = rows[picture]++;  // row by row of 9 points, 30 mm apart
     if (!picture.starts_with(device) || level == "-") continue;
-    corners[picture].board.emplace_back(0.03f * float(k % 9), 0.03f * float(k / 9), 0.0f);
+    const int column = k % 9, row = k / 9;
+    corners[picture].board.emplace_back(0.03f * float(column), 0.03f * float(row), 0.0f);
     corners[picture].pixels.emplace_back(std::stof(x), std::stof(y));
   }
   return corners;

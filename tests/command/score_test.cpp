@@ -121,13 +121,15 @@ TEST(ScoreCommand, UnsoundResultsAreOneSentence) {
   const std::string device =
       R"({"name": "left", "size": [320, 200], "fx": 400, "fy": 400, "cx": 160, "cy": 100)";
   const std::string pose = R"(, "device_from_world": [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 2]]})";
-  const auto with = [](const std::string& devices) { return "{\"projectors\": [" + devices + "]}"; };
+  const auto with = [](const std::string& devices) {
+    return fmt::format("{{\"projectors\": [{}]}}", devices);
+  };
   for (const auto& [result, words] :
-       {std::pair(std::string(), "empty"), std::pair(with(device + "}"), "no placement"),
-        std::pair(with(device + R"(, "fx": NaN)" + pose), "no JSON"),
-        std::pair(with(device + R"(, "fx": null)" + pose), "must be number"),
-        std::pair(with(device + R"(, "size": [0, 200])" + pose), "unusable size"),
-        std::pair(with(device + pose + ", " + device + pose), "second projector")}) {
+       {std::pair(std::string(), "empty"), std::pair(with(fmt::format("{}}}", device)), "no placement"),
+        std::pair(with(fmt::format(R"({}, "fx": NaN{})", device, pose)), "no JSON"),
+        std::pair(with(fmt::format(R"({}, "fx": null{})", device, pose)), "must be number"),
+        std::pair(with(fmt::format(R"({}, "size": [0, 200]{})", device, pose)), "unusable size"),
+        std::pair(with(fmt::format("{0}{1}, {0}{1}", device, pose)), "second projector")}) {
     write_text(scratch / "result.json", result);
     const auto run = laterna("score small.toml result.json --json", scratch.path());
     EXPECT_EQ(run.exit_code, 2) << result;
