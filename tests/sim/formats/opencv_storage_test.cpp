@@ -12,7 +12,6 @@ namespace {
 
 using ::testing::HasSubstr;
 using testing::rig_pixel;
-using ::testing::StartsWith;
 
 // As scan3d-capture writes: the projector stands 200 mm to the right (its frame's x is the camera's minus
 // 200) and is turned a quarter about z, so that x_projector = (-y, x, z) + T.
