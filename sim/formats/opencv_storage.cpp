@@ -54,6 +54,7 @@ Device device_of(const std::string& name, const Place& k, const Place& d, glm::i
 glm::ivec2 size_at(const Place& file, const char* key, bool height_first = false) {
   if (!file.has(key)) return {0, 0};
   const std::vector<double> numbers = matrix(file.at(key), 2);
+  if (!is_whole(numbers[0]) || !is_whole(numbers[1])) fail_at(file.at(key), "whole numbers of pixels");
   const glm::ivec2 size(numbers[0], numbers[1]);
   return height_first ? glm::ivec2(size.y, size.x) : size;
 }

@@ -3,6 +3,7 @@
 #include "sim/formats/rig_file.h"
 #include "tests/sim/formats/rigs.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -366,6 +367,9 @@ TEST(OpencvStorage, BadFiles) {
   EXPECT_THAT(error_of(scan3d_by_hand, "data: [ 1000.", "data: *here #"), HasSubstr("c.yml:7: "));
   EXPECT_THAT(error_of(scan3d_by_hand, "cam_K", "lens"), HasSubstr("no calibration that is known"));
   EXPECT_THAT(error_of(scan3d_by_hand, "cam_error", std::string(2000, '[')), HasSubstr("nest deeper"));
+  for (const char* height : {"777777777800", "480.5"})
+    EXPECT_THAT(error_of(scan3d_by_hand, "cam_K", fmt::format("cam_size: [ 640, {} ]\ncam_K", height)),
+                HasSubstr("expected whole numbers of pixels"));
   const testing::ScratchFolder folder;
   const auto file = testing::write_text(folder / "c.yml", scan3d_by_hand);
   EXPECT_THAT(testing::input_error([&] { read_rig(file); }), HasSubstr("--camera-size"));
