@@ -108,28 +108,22 @@ Json error_json(const ErrorSummary& e) {
 
 Json estimate_json(const std::string& name, const SolveResult& solve) {
   const Device& d = solve.estimate;
-  const Intrinsics& k = d.intrinsics;
   if (solve.status == Status::refused) {
     return {{"name", name}, {"status", status_word(solve.status)}, {"reason", solve.reason}};
   }
-  return {{"name", name},
-          {"status", status_word(solve.status)},
-          {"reason", solve.reason},
-          {"size", {k.size.x, k.size.y}},
-          {"fx", k.fx},
-          {"fy", k.fy},
-          {"cx", k.cx},
-          {"cy", k.cy},
-          {"lens", {{"model", d.lens.model}, {"parameters", d.lens.parameters}}},
-          {"device_from_world", rows_of(d.device_from_world)},
-          {"projector_from_world", json_of(projector_from_world(d.device_from_world))},
-          {"texture_from_world", json_of(texture_from_world(d))},
-          {"free_parameters", solve.free_parameters},
-          {"sigma", sigma_json(solve)},
-          {"parameters", solve.parameter_names},
-          {"covariance", solve.covariance},
-          {"predicted_volume_rms_px", finite_or_null(solve.predicted_volume_rms_px)},
-          {"predicted_volume_px", camera_share_json(solve)}};
+  Json json = device_json(d);
+  json.update({{"name", name},
+               {"status", status_word(solve.status)},
+               {"reason", solve.reason},
+               {"projector_from_world", json_of(projector_from_world(d.device_from_world))},
+               {"texture_from_world", json_of(texture_from_world(d))},
+               {"free_parameters", solve.free_parameters},
+               {"sigma", sigma_json(solve)},
+               {"parameters", solve.parameter_names},
+               {"covariance", solve.covariance},
+               {"predicted_volume_rms_px", finite_or_null(solve.predicted_volume_rms_px)},
+               {"predicted_volume_px", camera_share_json(solve)}});
+  return json;
 }
 
 std::string estimates_text(const std::vector<Json>& estimates, const Scene& believed) {

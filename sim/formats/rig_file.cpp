@@ -108,8 +108,9 @@ std::vector<RigText> rig_texts(const Rig& rig, const fs::path& path, const std::
   if (!format.write) throw InputError(fmt::format("{} is read only", format.name));
   if (format.fixes_unit && unit_m != 1)
     throw InputError(fmt::format("{} fixes its unit of length, expected no other", format.name));
-  check_rig(rig);
-  std::vector<RigText> texts = format.write(scaled(rig_for(format, rig, notes), 1 / unit_m), notes);
+  const Rig whole = rig_for(format, rig, notes);
+  check_rig(whole);
+  std::vector<RigText> texts = format.write(scaled(whole, 1 / unit_m), notes);
   if (*format.ending && !path.has_extension() && texts.size() == 1 && texts[0].name.empty())
     throw InputError(fmt::format("{}: {} is known by its ending, expected a name that ends in {}",
                                  path.string(), format.name, format.ending));
